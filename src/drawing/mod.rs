@@ -1,0 +1,1 @@
+//! Drawings in millimetres, drawn once and rendered to SVG and PDF.

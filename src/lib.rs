@@ -1,0 +1,5 @@
+//! Reciprocal frames from sticks.
+
+pub mod drawing;
+pub mod ids;
+pub mod surface;
