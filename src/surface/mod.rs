@@ -1,6 +1,12 @@
 //! The guiding surface: a triangle mesh, how it is read, what shape it has, and
 //! where points lie on it.
 
+pub mod bvh;
+pub mod locate;
+pub mod samples;
+pub mod shape;
+pub mod topology;
+
 use crate::ids::{FaceId, IdVec, VertexId};
 
 /// A point in space, mm.
