@@ -183,7 +183,7 @@ mod tests {
     #[test]
     fn width_is_the_sum_of_advances() {
         // Advances in 2048ths of the font size, read from the file's hmtx table.
-        let units = |c| text_width(c, 2048.0, Weight::Regular).expect("in the font");
+        let units = |c: &str| text_width(c, 2048.0, Weight::Regular).expect("in the font");
         assert_eq!(units("R") + units("0") + units("1"), units("R01"));
         assert_eq!(units(""), 0.0);
         let digits: Vec<f64> = "0123456789".chars().map(|c| units(&c.to_string())).collect();

@@ -20,6 +20,7 @@
 //! (`item`, `style`), the builders (`draw`), moving and cutting groups of items
 //! (`place`, `clip`), the one font ([`font`]) and the renderers ([`svg`], [`pdf`]).
 
+mod check;
 mod clip;
 mod draw;
 mod error;
@@ -28,6 +29,7 @@ mod geometry;
 mod item;
 mod place;
 mod style;
+pub mod svg;
 
 pub use clip::clip;
 pub use draw::Draw;
