@@ -1,5 +1,11 @@
 //! Reciprocal frames from sticks.
 
+pub mod chart;
 pub mod drawing;
+pub mod frame;
 pub mod ids;
+pub mod linalg;
+pub mod pattern;
 pub mod surface;
+pub mod tiling;
+pub mod units;

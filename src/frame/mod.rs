@@ -1,0 +1,170 @@
+//! The reciprocal frame: rods, the contacts between them, and the units that they
+//! form. One file a step, in the order of [`form`](form::form): crop, weave, lift,
+//! layer, close, cut, stand, and the measures of the result.
+
+pub mod axis;
+pub mod clash;
+pub mod close;
+pub mod crop;
+pub mod layer;
+pub mod lift;
+pub mod weave;
+
+use crate::chart::SurfacePoint;
+use crate::ids::{ContactId, IdVec, RodId, UnitId};
+use crate::surface::{Point3, Vector3};
+use axis::Axis;
+
+/// A finished reciprocal frame. Lengths in mm, angles in radians, z up.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Diameter of every rod.
+    pub diameter: f64,
+    /// Height of the ground.
+    pub ground: f64,
+    /// The rods, cut to length.
+    pub rods: IdVec<RodId, Rod>,
+    /// The contacts, each between two rods.
+    pub contacts: IdVec<ContactId, Contact>,
+    /// The units.
+    pub units: IdVec<UnitId, Unit>,
+    /// Where rods stand on the ground, in the order of the rods.
+    pub supports: Vec<Support>,
+    /// Units that were left out, and why.
+    pub dropped: Vec<Dropped>,
+}
+
+/// A straight round stick.
+#[derive(Clone, Debug)]
+pub struct Rod {
+    /// The axis; it starts at end A, the numbered end.
+    pub axis: Axis,
+    /// The units that it belongs to: two inside the frame, one at its border.
+    pub units: Vec<UnitId>,
+    /// Its contacts, from end A to end B.
+    pub contacts: Vec<ContactId>,
+}
+
+/// A place where one rod crosses over another and touches it.
+#[derive(Clone, Debug)]
+pub struct Contact {
+    /// The rod on the outer side of the surface.
+    pub over: RodId,
+    /// The rod below.
+    pub under: RodId,
+    /// From end A of the over rod to the contact, along its axis.
+    pub at_over: f64,
+    /// The same along the under rod.
+    pub at_under: f64,
+    /// Between the axes, 0 to π/2.
+    pub angle: f64,
+    /// Distance of the axes.
+    pub gap: f64,
+    /// Unit normal of the guiding surface at the contact.
+    pub normal: Vector3,
+    /// The unit that it belongs to.
+    pub unit: UnitId,
+}
+
+/// N rods in a closed circuit.
+#[derive(Clone, Debug)]
+pub struct Unit {
+    /// The middle, on the guiding surface.
+    pub center: SurfacePoint,
+    /// Which way the rods run round.
+    pub chirality: Chirality,
+    /// Its rods, counter-clockwise seen from outside.
+    pub rods: Vec<RodId>,
+    /// Its contacts: contact i lies between rods i and i + 1.
+    pub contacts: Vec<ContactId>,
+}
+
+/// The sense in which the rods of a unit run round its centre, seen from outside.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Chirality {
+    /// Clockwise.
+    Clockwise,
+    /// Counter-clockwise.
+    CounterClockwise,
+}
+
+impl Chirality {
+    /// `cw` or `ccw`, as files name it.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::Clockwise => "cw",
+            Self::CounterClockwise => "ccw",
+        }
+    }
+}
+
+/// One of the two ends of a rod.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum End {
+    /// The numbered end, from which marks are measured.
+    A,
+    /// The other one.
+    B,
+}
+
+/// A rod end that stands on the ground.
+#[derive(Clone, Debug)]
+pub struct Support {
+    /// The rod.
+    pub rod: RodId,
+    /// Which of its ends.
+    pub end: End,
+    /// Where the axis meets the ground.
+    pub point: Point3,
+}
+
+/// A unit that was left out of the frame.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Dropped {
+    /// Its middle on the guiding surface.
+    pub center: Point3,
+    /// What was wrong with it, as a sentence.
+    pub reason: String,
+}
+
+impl Frame {
+    /// The end of a contact's other rod and where the contact lies on `rod`:
+    /// `(partner, distance from end A on rod, distance on the partner, rod is over)`.
+    pub fn seen_from(&self, contact: ContactId, rod: RodId) -> Mating {
+        let c = &self.contacts[contact];
+        if c.over == rod {
+            Mating { partner: c.under, at: c.at_over, at_partner: c.at_under, over: true }
+        } else {
+            Mating { partner: c.over, at: c.at_under, at_partner: c.at_over, over: false }
+        }
+    }
+
+    /// The position of an end of a rod.
+    pub fn end(&self, rod: RodId, end: End) -> Point3 {
+        let axis = &self.rods[rod].axis;
+        match end {
+            End::A => axis.a,
+            End::B => axis.b,
+        }
+    }
+
+    /// Lower and upper corner of a box round all axes.
+    pub fn bounds(&self) -> [Point3; 2] {
+        let ends = self.rods.iter().flat_map(|r| [r.axis.a, r.axis.b]);
+        let start = [Point3::from([f64::INFINITY; 3]), Point3::from([f64::NEG_INFINITY; 3])];
+        ends.fold(start, |[lo, hi], p| [lo.inf(&p), hi.sup(&p)])
+    }
+}
+
+/// A contact as one of its two rods sees it.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Mating {
+    /// The other rod.
+    pub partner: RodId,
+    /// Distance from end A of this rod, mm.
+    pub at: f64,
+    /// Distance from end A of the other rod, mm.
+    pub at_partner: f64,
+    /// Whether this rod lies over the other.
+    pub over: bool,
+}

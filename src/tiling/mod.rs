@@ -1,0 +1,80 @@
+//! Edge-to-edge tilings of the plane by regular polygons: an N-gon hosts a unit
+//! of N rods, an edge hosts a connection (paper, section 3.1).
+
+mod lattice;
+mod uniform;
+
+pub use lattice::{DIRECTIONS, Lattice};
+pub use uniform::{UNIFORM, UniformTiling};
+
+use crate::ids::{IdVec, TileEdgeId, TileId};
+use nalgebra::{Point2, Rotation2, Vector2};
+
+/// A finite piece of a tiling, in edge lengths.
+#[derive(Clone, Debug, Default)]
+pub struct Tiling {
+    /// Vertex positions.
+    pub vertices: Vec<Point2<f64>>,
+    /// The polygons.
+    pub tiles: IdVec<TileId, Tile>,
+    /// The sides of the polygons, each once.
+    pub edges: IdVec<TileEdgeId, TileEdge>,
+}
+
+/// A polygon of a tiling.
+#[derive(Clone, Debug)]
+pub struct Tile {
+    /// Vertices, counter-clockwise.
+    pub corners: Vec<usize>,
+    /// Edges; edge i joins corners i and i + 1.
+    pub edges: Vec<TileEdgeId>,
+    /// The middle.
+    pub center: Point2<f64>,
+}
+
+/// A side of one or two polygons.
+#[derive(Clone, Debug)]
+pub struct TileEdge {
+    /// Vertices, in the order in which the left tile runs through them.
+    pub ends: [usize; 2],
+    /// The tile on the left.
+    pub left: TileId,
+    /// The tile on the right, if the piece holds it.
+    pub right: Option<TileId>,
+}
+
+impl Tiling {
+    /// The middle of an edge.
+    pub fn midpoint(&self, edge: TileEdgeId) -> Point2<f64> {
+        let [a, b] = self.edges[edge].ends.map(|v| self.vertices[v]);
+        nalgebra::center(&a, &b)
+    }
+}
+
+/// Where a tiling lies in the plane of a chart.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Placement {
+    /// Where the tiling's own origin comes to lie, mm.
+    pub origin: Point2<f64>,
+    /// Turn about that point, radians, counter-clockwise.
+    pub rotation: f64,
+    /// Edge length, mm.
+    pub edge: f64,
+}
+
+impl Placement {
+    /// From the tiling's coordinates (in edges) to the chart's (mm).
+    pub fn apply(&self, p: Point2<f64>) -> Point2<f64> {
+        self.origin + self.vector(p.coords)
+    }
+
+    /// The same for directions and offsets.
+    pub fn vector(&self, v: Vector2<f64>) -> Vector2<f64> {
+        Rotation2::new(self.rotation) * v * self.edge
+    }
+
+    /// From the chart's coordinates back to the tiling's.
+    pub fn invert(&self, p: Point2<f64>) -> Point2<f64> {
+        (Rotation2::new(-self.rotation) * (p - self.origin) / self.edge).into()
+    }
+}
