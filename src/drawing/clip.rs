@@ -240,7 +240,7 @@ mod tests {
         assert_eq!(
             points(&cut),
             [
-                vec![[10.0, 2.0], [10.0, 8.0], [5.0, 8.0], [5.0, 2.0]],
+                vec![[5.0, 2.0], [10.0, 2.0], [10.0, 8.0], [5.0, 8.0]],
                 vec![[10.0, 8.0], [5.0, 8.0], [5.0, 2.0], [10.0, 2.0]]
             ]
         );
@@ -263,8 +263,7 @@ mod tests {
         assert_eq!(cut.len(), 2);
         let half = &points(&cut)[0];
         assert!(half.iter().all(|p| ((p[0] - 10.0).hypot(p[1] - 5.0) - 4.0).abs() < 0.01));
-        let length: f64 =
-            half.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
+        let length = length(half);
         assert!((length - 4.0 * std::f64::consts::PI).abs() < 0.02, "half circle {length}");
         assert_eq!(cut[1], items[1]);
     }
@@ -277,6 +276,33 @@ mod tests {
         let [Item::Figure(f)] = &clip(&items, RECT)[..] else { panic!("one figure") };
         assert_eq!(rings(&f.shape).len(), 2);
         assert_eq!(bounds(&clip(&items, RECT)), Some(Rect::new([0.0, 0.0], [5.0, 5.0])));
+    }
+
+    fn length(points: &[Point]) -> f64 {
+        points.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum()
+    }
+
+    fn enclosed(ring: &[Point]) -> f64 {
+        let next = ring.iter().cycle().skip(1);
+        ring.iter().zip(next).map(|(a, b)| (a[0] * b[1] - a[1] * b[0]) / 2.0).sum()
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn tiles_share_out_all_length_and_area(
+            corners in proptest::collection::vec([0.0..20.0, 0.0..20.0], 3..12),
+        ) {
+            let tiles = [[0.0, 0.0], [10.0, 0.0], [0.0, 10.0], [10.0, 10.0]];
+            let mut outline = corners.clone();
+            outline.push(corners[0]);
+            let (mut total, mut area) = (0.0, 0.0);
+            for tile in tiles.map(|corner| Rect::new(corner, [10.0, 10.0])) {
+                total += clip_polyline(&corners, true, tile).iter().map(|p| length(p)).sum::<f64>();
+                area += enclosed(&clip_ring(&corners, tile));
+            }
+            proptest::prop_assert!((total - length(&outline)).abs() < 1e-9);
+            proptest::prop_assert!((area - enclosed(&corners)).abs() < 1e-9);
+        }
     }
 
     #[test]

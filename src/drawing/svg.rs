@@ -5,7 +5,7 @@
 //! text; text is `<text>`, with its length given so that it keeps its room when the
 //! viewer has to take another font.
 
-use svg::node::element::{Circle, Element, Group, Line, Path, Polygon, Polyline, Text as TextNode};
+use svg::node::element::{Circle, Element, Group, Line, Path, Polygon, Polyline};
 use svg::{Document, Node};
 
 use super::check::check;
@@ -25,7 +25,8 @@ pub fn render(drawing: &Drawing) -> Result<String, DrawingError> {
         .set("xmlns:inkscape", "http://www.inkscape.org/namespaces/inkscape")
         .set("width", format!("{width}mm"))
         .set("height", format!("{height}mm"))
-        .set("viewBox", format!("0 0 {width} {height}"));
+        .set("viewBox", format!("0 0 {width} {height}"))
+        .set("font-family", SVG_FAMILIES);
     for layer in &drawing.layers {
         document.append(group(layer)?);
     }
@@ -111,16 +112,19 @@ fn paint(element: &mut Element, paint: &Paint, closed: bool) {
     }
 }
 
-fn text(text: &Text) -> Result<TextNode, DrawingError> {
+fn text(text: &Text) -> Result<Element, DrawingError> {
     let [x, y] = text.at;
-    let mut node = TextNode::new(&*text.string)
-        .set("x", number(x))
-        .set("y", number(y))
-        .set("font-family", SVG_FAMILIES)
-        .set("font-size", number(text.size))
-        .set("fill", text.color.to_string())
-        .set("textLength", number(text_width(&text.string, text.size, text.weight)?))
-        .set("lengthAdjust", "spacingAndGlyphs");
+    let length = text_width(&text.string, text.size, text.weight)?;
+    // Not the library's text element: it puts line breaks around the string, which
+    // viewers show as spaces.
+    let mut node = Element::new("text");
+    node.append(svg::node::Text::new(&*text.string));
+    node.assign("x", number(x));
+    node.assign("y", number(y));
+    node.assign("font-size", number(text.size));
+    node.assign("fill", text.color.to_string());
+    node.assign("textLength", number(length));
+    node.assign("lengthAdjust", "spacingAndGlyphs");
     match text.anchor {
         Anchor::Start => {}
         Anchor::Middle => node.assign("text-anchor", "middle"),
@@ -160,7 +164,19 @@ mod tests {
             ],
             Color::BLACK,
         );
-        insta::assert_snapshot!(render(&d).expect("can be rendered"), @"");
+        insta::assert_snapshot!(render(&d).expect("can be rendered"), @r##"
+        <?xml version="1.0" encoding="UTF-8"?>
+        <svg font-family="DejaVu Sans Condensed, DejaVu Sans, Arial, sans-serif" height="50mm" viewBox="0 0 100 50" width="100mm" xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape">
+        <g inkscape:groupmode="layer" inkscape:label="drawing">
+        <line fill="none" stroke="#000000" stroke-dasharray="2 1" stroke-width="0.25" x1="0.3" x2="10" y1="0" y2="20"/>
+        <polygon fill="#0072B2" points="1,2 4,2 4,6 1,6" stroke="#000000" stroke-linecap="round" stroke-linejoin="round" stroke-width="0.1"/>
+        </g>
+        <g inkscape:groupmode="layer" inkscape:label="CUT &quot;1&quot; &amp; &lt;2&gt;">
+        <circle cx="5" cy="5" fill="none" r="2.5" stroke="#D55E00" stroke-width="0.01"/>
+        <path d="M0,0 9,0 9,9Z M5,1 8,1 8,4Z" fill="#000000" fill-rule="evenodd"/>
+        </g>
+        </svg>
+        "##);
     }
 
     #[test]
@@ -169,7 +185,12 @@ mod tests {
         d.text([10.0, 20.0], 4.0, "Ø 3 <&> \"41°\"").bold().middle().rotate(-90.0);
         d.text([10.0, 20.0], 4.0, "two  spaces").color(Color::GREEN).end();
         d.text([10.0, 20.0], 4.0, "");
-        insta::assert_snapshot!(render(&d).expect("can be rendered"), @"");
+        let text = render(&d).expect("can be rendered");
+        let texts: Vec<_> = text.lines().filter(|l| l.starts_with("<text")).collect();
+        insta::assert_snapshot!(texts.join("\n"), @r##"
+        <text fill="#000000" font-size="4" font-weight="bold" lengthAdjust="spacingAndGlyphs" text-anchor="middle" textLength="29.0449" transform="rotate(-90 10 20)" x="10" y="20">Ø 3 &lt;&amp;&gt; "41°"</text>
+        <text fill="#009E73" font-size="4" lengthAdjust="spacingAndGlyphs" text-anchor="end" textLength="21.2734" x="10" xml:space="preserve" y="20">two  spaces</text>
+        "##);
     }
 
     #[test]
