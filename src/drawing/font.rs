@@ -102,6 +102,12 @@ pub(super) fn glyphs(string: &str, weight: Weight) -> Result<Vec<u16>, DrawingEr
     string.chars().map(|c| face.glyphs.get(&c).copied().ok_or_else(|| missing(c))).collect()
 }
 
+/// Advances of glyphs of the full font, as shares of the font size.
+pub(super) fn advances(glyphs: &[u16], weight: Weight) -> Result<Vec<f64>, DrawingError> {
+    let face = Face::of(weight)?;
+    Ok(glyphs.iter().map(|&g| face.advance(g)).collect())
+}
+
 /// Length of a line of text, mm, at a font size in mm.
 pub fn text_width(string: &str, size: f64, weight: Weight) -> Result<f64, DrawingError> {
     let face = Face::of(weight)?;

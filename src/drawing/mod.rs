@@ -27,6 +27,7 @@ mod error;
 pub mod font;
 mod geometry;
 mod item;
+pub mod pdf;
 mod place;
 mod style;
 pub mod svg;
