@@ -6,8 +6,13 @@ pub mod axis;
 pub mod clash;
 pub mod close;
 pub mod crop;
+pub mod cut;
+pub mod fit;
+pub mod form;
 pub mod layer;
 pub mod lift;
+pub mod measure;
+pub mod stand;
 pub mod weave;
 
 use crate::chart::SurfacePoint;

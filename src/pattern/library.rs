@@ -27,7 +27,7 @@ pub const LIBRARY: &[Pattern] = &[
     Pattern {
         name: "3.3.3.3.3.3",
         summary: "triangles: three rods a unit, dense and stiff",
-        turn: 15.0,
+        turn: 20.0,
         turns: [8.0, 24.0],
     },
     Pattern {
@@ -39,31 +39,31 @@ pub const LIBRARY: &[Pattern] = &[
     Pattern {
         name: "3.6.3.6",
         summary: "triangles between hexagons, like basket work",
-        turn: 18.0,
+        turn: 20.0,
         turns: [8.0, 24.0],
     },
     Pattern {
         name: "3.4.6.4",
         summary: "hexagons in rings of squares and triangles",
-        turn: 18.0,
+        turn: 20.0,
         turns: [8.0, 24.0],
     },
     Pattern {
         name: "3.3.3.4.4",
         summary: "rows of squares between rows of triangles",
-        turn: 16.0,
+        turn: 20.0,
         turns: [8.0, 24.0],
     },
     Pattern {
         name: "3.3.4.3.4",
         summary: "squares turned against each other, triangles between",
-        turn: 16.0,
+        turn: 20.0,
         turns: [8.0, 24.0],
     },
     Pattern {
         name: "3.3.3.3.6",
         summary: "hexagons wrapped in triangles, with a twist",
-        turn: 16.0,
+        turn: 20.0,
         turns: [8.0, 24.0],
     },
 ];

@@ -1,0 +1,148 @@
+//! The tile edge at which sticks of a given diameter sit well on a surface.
+//!
+//! The rise of a contact grows with the square of the tile edge. Where the median
+//! rise equals the diameter, rods touch without being moved much: thicker ones
+//! would push the frame off the surface, thinner ones let it sink.
+
+use super::form::median_rise;
+use crate::chart::Chart;
+use crate::pattern::Pattern;
+use crate::tiling::Placement;
+use thiserror::Error;
+
+/// The tile edge found, and what it rests on.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Fit {
+    /// Mean tile edge, mm.
+    pub edge: f64,
+    /// Median rise of the contacts at that edge, mm: the diameter that would suit.
+    pub rise: f64,
+    /// Number of units.
+    pub units: usize,
+    /// Whether the rise decided. On a surface without curvature it cannot.
+    pub by_rise: bool,
+}
+
+/// No tile edge suits.
+#[derive(Error, Clone, Copy, PartialEq, Debug)]
+pub enum FitError {
+    /// Even the largest units have too little rise for this stick, or it is too
+    /// thick for any.
+    #[error(
+        "{diameter} mm rods are too thick for this surface: units large enough to lift them \
+         over each other do not fit on it. Use rods of at most {suits:.1} mm (--rod), a larger \
+         model (--span), or set the unit yourself (--unit)"
+    )]
+    TooThick { diameter: f64, suits: f64 },
+    /// No pattern of any tried size has enough units.
+    #[error(
+        "no pattern with units between {from:.1} and {to:.1} mm finds room for three of them on \
+         this surface. Use thinner rods (--rod) or a larger model (--span)"
+    )]
+    NoRoom { from: f64, to: f64 },
+}
+
+/// Tile edge, in diameters, where the rise cannot decide: flat and saddle-shaped
+/// surfaces.
+const PLAIN_EDGE: f64 = 20.0;
+
+/// Smallest tile edge tried, in diameters: below, there is no room for the rods
+/// between the contacts of a unit.
+const LEAST_EDGE: f64 = 6.0;
+
+/// Fewest units of a fitted frame. Fewer make a poor likeness of a surface.
+const LIKENESS: usize = 12;
+
+/// Ratio of neighbouring tile edges while the fitting edge is being enclosed.
+const STRIDE: f64 = 1.15;
+
+/// Bisections after it: they place the edge to one part in a thousand, finer than
+/// the rise is smooth in the edge.
+const BISECTIONS: usize = 7;
+
+/// Finds the tile edge for rods of `diameter` mm, turned by `turn` radians.
+/// `placement` gives origin and rotation; its edge is not used.
+///
+/// # Errors
+/// [`FitError`] when no edge suits.
+pub fn fit(
+    chart: &impl Chart,
+    pattern: &Pattern,
+    placement: &Placement,
+    turn: f64,
+    diameter: f64,
+) -> Result<Fit, FitError> {
+    let try_edge = |edge: f64| {
+        let (tiles, rise) = median_rise(chart, pattern, &Placement { edge, ..*placement }, turn)?;
+        let fit = Fit { edge, rise, units: tiles.len(), by_rise: true };
+        (fit.units >= LIKENESS).then_some(fit)
+    };
+    let least = LEAST_EDGE * diameter;
+    let [lo, hi] = chart.bounds();
+    let most = (hi - lo).norm();
+    let mut edge = guess(least, most, diameter, try_edge);
+    let (mut below, mut above): (Option<Fit>, Option<Fit>) = (None, None);
+    loop {
+        match try_edge(edge) {
+            Some(now) if now.rise >= diameter => above = Some(now),
+            Some(now) => below = Some(now),
+            None if below.is_some() => break,
+            None => {}
+        }
+        if let (Some(below), Some(above)) = (below, above) {
+            return Ok(bisect(below, above, diameter, try_edge));
+        }
+        edge = if below.is_some() { edge * STRIDE } else { edge / STRIDE };
+        if edge < least {
+            break;
+        }
+    }
+    match (below, above) {
+        (_, Some(thinnest)) => Ok(thinnest),
+        (Some(largest), None) => plain(&largest, diameter, try_edge),
+        (None, None) => Err(FitError::NoRoom { from: least, to: most }),
+    }
+}
+
+/// A tile edge near the fitting one: the rise grows with its square.
+fn guess(least: f64, most: f64, diameter: f64, try_edge: impl Fn(f64) -> Option<Fit>) -> f64 {
+    let mut edge = (PLAIN_EDGE * diameter).min(most / 4.0).max(least);
+    for _ in 0..2 {
+        let Some(now) = try_edge(edge) else { break };
+        edge = (now.edge * (diameter / now.rise).sqrt()).clamp(least, most);
+    }
+    edge
+}
+
+/// Narrows the edge down between one whose rise is too small and one whose rise suffices.
+fn bisect(
+    mut below: Fit,
+    mut above: Fit,
+    diameter: f64,
+    try_edge: impl Fn(f64) -> Option<Fit>,
+) -> Fit {
+    for _ in 0..BISECTIONS {
+        match try_edge((below.edge * above.edge).sqrt()) {
+            Some(mid) if mid.rise >= diameter => above = mid,
+            Some(mid) => below = mid,
+            None => break,
+        }
+    }
+    above
+}
+
+/// Where no edge has enough rise: a plain edge if there is room for it, an error if
+/// the rods are too thick. `largest` is the largest edge with room.
+fn plain(
+    largest: &Fit,
+    diameter: f64,
+    try_edge: impl Fn(f64) -> Option<Fit>,
+) -> Result<Fit, FitError> {
+    match try_edge(PLAIN_EDGE * diameter) {
+        Some(fit) => Ok(Fit { by_rise: false, ..fit }),
+        None => {
+            let suits = largest.rise.max(largest.edge / PLAIN_EDGE);
+            Err(FitError::TooThick { diameter, suits })
+        }
+    }
+}

@@ -1,0 +1,380 @@
+//! From a placed pattern to a finished frame; what does not work is left out, one
+//! unit at a time, and the rest is solved again (paper, section 4.2 and Fig. 21).
+
+use super::axis::{Axis, Crossing};
+use super::clash::clashes;
+use super::close::{CloseError, Closing, Joint, close};
+use super::crop::crop;
+use super::cut::{Seat, crossings, cut, disorder, seats};
+use super::layer::{Layering, layer};
+use super::lift::{Lifted, lift};
+use super::stand::{Standing, ground_level, stand};
+use super::weave::{Weave, weave};
+use super::{Contact, Dropped, Frame, Rod, Support, Unit};
+use crate::chart::Chart;
+use crate::ids::{ContactId, IdVec, RodId, TileId, UnitId};
+use crate::linalg::LinalgError;
+use crate::pattern::Pattern;
+use crate::tiling::{Placement, Tiling};
+use nalgebra::Point2;
+use std::collections::{BTreeMap, BTreeSet};
+use thiserror::Error;
+
+/// What a frame is made from, besides surface, pattern and placement. Lengths in mm.
+#[derive(Clone, Copy, Debug)]
+pub struct FormSettings {
+    /// Rod diameter.
+    pub diameter: f64,
+    /// Turn of the rods, radians.
+    pub turn: f64,
+    /// Rod left beyond its last contact.
+    pub overhang: f64,
+    /// Rod lengths are multiples of this; 0 for any length.
+    pub round: f64,
+    /// Who goes over.
+    pub layering: Layering,
+    /// The lowest height of the surface.
+    pub surface_low: f64,
+}
+
+/// A finished frame and how it came about.
+#[derive(Clone, Debug)]
+pub struct Formed {
+    /// The frame.
+    pub frame: Frame,
+    /// What the last closing took.
+    pub closing: Closing,
+    /// How far each end of each rod moved in it, mm.
+    pub moves: Vec<f64>,
+    /// Rise of every contact before closing, mm.
+    pub rises: IdVec<ContactId, f64>,
+}
+
+/// Something wrong with some units.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Fault {
+    /// The units, any one of which would mend it by its absence.
+    pub units: Vec<UnitId>,
+    /// What is wrong, as a clause.
+    pub reason: String,
+}
+
+/// Why there is no frame.
+#[derive(Error, Clone, PartialEq, Debug)]
+pub enum FormError {
+    /// Hardly a unit fits the surface.
+    #[error(
+        "only {units} units of edge {edge:.1} mm fit the surface, and a frame needs at least \
+         {least}. Use smaller units (--unit), thinner rods (--rod) or a larger model (--span)"
+    )]
+    TooFewUnits { units: usize, least: usize, edge: f64 },
+    /// Too much had to be left out.
+    #[error(
+        "{dropped} of {total} units of edge {edge:.1} mm do not work with {diameter} mm rods; \
+         the first: {first}. {advice}"
+    )]
+    TooManyDropped {
+        dropped: usize,
+        total: usize,
+        edge: f64,
+        diameter: f64,
+        first: String,
+        advice: String,
+    },
+    /// A linear system could not be solved.
+    #[error("the contacts could not be closed: {0}")]
+    Linear(#[from] LinalgError),
+}
+
+/// Fewest units that make a frame: three, so that a rod can lie between two.
+const LEAST_UNITS: usize = 3;
+
+/// Largest part of the units that may be left out before the whole is refused.
+/// More, and what remains is not the surface that was asked for.
+const DROPPED_PART: f64 = 0.2;
+
+/// Least distance between two contacts along a rod, in diameters. Nearer, and
+/// there is no room for the two rods side by side.
+const ENGAGEMENT: f64 = 1.0;
+
+/// Longest piece added to a rod so that it stands on the ground, in tile edges.
+const REACH: f64 = 1.5;
+
+/// Builds a frame of a pattern on a chart.
+///
+/// # Errors
+/// [`FormError`] when too few units fit, or too many fail.
+pub fn form(
+    chart: &impl Chart,
+    pattern: &Pattern,
+    placement: &Placement,
+    settings: &FormSettings,
+) -> Result<Formed, FormError> {
+    let tiling = patch(chart, pattern, placement);
+    let mut without = BTreeSet::new();
+    let mut dropped: Vec<Dropped> = Vec::new();
+    let mut total = None;
+    loop {
+        let tiles = crop(&tiling, placement, settings.turn, chart, &without);
+        if tiles.len() < LEAST_UNITS && dropped.is_empty() {
+            let (units, least) = (tiles.len(), LEAST_UNITS);
+            return Err(FormError::TooFewUnits { units, least, edge: placement.edge });
+        }
+        let total = *total.get_or_insert(tiles.len());
+        if tiles.len() < LEAST_UNITS || dropped.len() as f64 > DROPPED_PART * total as f64 {
+            return Err(too_many(&dropped, total, placement, settings));
+        }
+        let weave = weave(&tiling, &tiles, settings.turn);
+        match attempt(chart, &weave, placement, settings)? {
+            Ok(mut formed) => {
+                formed.frame.dropped = dropped;
+                return Ok(formed);
+            }
+            Err(faults) => {
+                let (unit, reason) = worst(&faults);
+                let woven = &weave.units[unit];
+                without.insert(woven.tile);
+                let center = chart.lift(placement.apply(woven.center));
+                let center = center.map_or_else(Default::default, |c| c.position);
+                dropped.push(Dropped { center, reason });
+            }
+        }
+    }
+}
+
+/// The tiles over the whole chart.
+pub fn patch(chart: &impl Chart, pattern: &Pattern, placement: &Placement) -> Tiling {
+    let [lo, hi] = chart.bounds();
+    let corners = [(lo.x, lo.y), (lo.x, hi.y), (hi.x, lo.y), (hi.x, hi.y)];
+    let corners = corners.map(|(x, y)| placement.invert(Point2::new(x, y)));
+    let low = corners[1..].iter().fold(corners[0], |m, p| m.inf(p));
+    let high = corners[1..].iter().fold(corners[0], |m, p| m.sup(p));
+    pattern.tiling().patch(low, high)
+}
+
+fn too_many(
+    dropped: &[Dropped],
+    total: usize,
+    placement: &Placement,
+    settings: &FormSettings,
+) -> FormError {
+    FormError::TooManyDropped {
+        dropped: dropped.len(),
+        total,
+        edge: placement.edge,
+        diameter: settings.diameter,
+        first: dropped.first().map_or_else(String::new, |d| d.reason.clone()),
+        advice: "Leave out --unit to let the units be fitted to the rods, or try another turn \
+                 (--turn), a shorter overhang (--overhang) or another pattern (--pattern)"
+            .to_string(),
+    }
+}
+
+/// The unit with the most faults (of equals the outermost), and its first fault.
+fn worst(faults: &[Fault]) -> (UnitId, String) {
+    let mut counts: BTreeMap<UnitId, usize> = BTreeMap::new();
+    for unit in faults.iter().flat_map(|f| &f.units) {
+        *counts.entry(*unit).or_default() += 1;
+    }
+    let (&unit, _) = counts
+        .iter()
+        .max_by_key(|&(unit, count)| (*count, *unit))
+        .expect("every fault names at least one unit");
+    let first = faults.iter().find(|f| f.units.contains(&unit));
+    (unit, first.map_or_else(String::new, |f| f.reason.clone()))
+}
+
+/// One try at a frame: the frame, or what is wrong with which units.
+fn attempt(
+    chart: &impl Chart,
+    weave: &Weave,
+    placement: &Placement,
+    settings: &FormSettings,
+) -> Result<Result<Formed, Vec<Fault>>, FormError> {
+    let lifted = match lift(weave, placement, chart) {
+        Ok(lifted) => lifted,
+        Err(e) => return Ok(Err(vec![Fault { units: vec![e.unit], reason: e.reason.into() }])),
+    };
+    let rises = lifted.rises(weave);
+    let joints = joints(weave, &lifted, &layer(&rises, settings.layering), settings.diameter);
+    let mut axes = lifted.axes.clone();
+    let closing = match close(&mut axes, &joints) {
+        Ok(closing) => closing,
+        Err(CloseError::Linear(e)) => return Err(e.into()),
+        Err(CloseError::Parallel(c)) => return Ok(Err(vec![open_contact(weave, c)])),
+        Err(CloseError::Diverged { worst, .. }) => {
+            return Ok(Err(vec![open_contact(weave, worst)]));
+        }
+    };
+    let moves = lifted
+        .axes
+        .iter()
+        .zip(&axes)
+        .flat_map(|(old, new)| [(new.a - old.a).norm(), (new.b - old.b).norm()])
+        .collect();
+    Ok(finish(weave, &lifted, &axes, &joints, placement, settings).map(|frame| Formed {
+        frame,
+        closing,
+        moves,
+        rises,
+    }))
+}
+
+fn open_contact(weave: &Weave, contact: ContactId) -> Fault {
+    let c = &weave.contacts[contact];
+    Fault {
+        units: vec![c.unit],
+        reason: format!("rods {} and {} could not be brought to touch", c.ending, c.passing),
+    }
+}
+
+fn joints(
+    weave: &Weave,
+    lifted: &Lifted,
+    ending_over: &IdVec<ContactId, bool>,
+    diameter: f64,
+) -> IdVec<ContactId, Joint> {
+    weave
+        .contacts
+        .enumerate()
+        .map(|(id, c)| {
+            let (over, under) =
+                if ending_over[id] { (c.ending, c.passing) } else { (c.passing, c.ending) };
+            Joint { over, under, outward: lifted.normals[id], gap: diameter }
+        })
+        .collect()
+}
+
+/// Cuts the closed axes, checks them, lets them stand, and puts the frame together.
+fn finish(
+    weave: &Weave,
+    lifted: &Lifted,
+    closed: &IdVec<RodId, Axis>,
+    joints: &IdVec<ContactId, Joint>,
+    placement: &Placement,
+    settings: &FormSettings,
+) -> Result<Frame, Vec<Fault>> {
+    let FormSettings { diameter, overhang, round, .. } = *settings;
+    let along = seats(weave, joints, &crossings(weave, closed, joints).map_err(|f| vec![f])?);
+    let faults = disorder(weave, &along, ENGAGEMENT * diameter);
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let mut axes: IdVec<RodId, Axis> =
+        closed.enumerate().map(|(r, axis)| cut(axis, &along[r], overhang, round)).collect();
+    let pairs: BTreeSet<[RodId; 2]> =
+        joints.iter().map(|j| [j.over.min(j.under), j.over.max(j.under)]).collect();
+    let faults = clash_faults(weave, &axes, diameter, &pairs);
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let ground = ground_level(settings.surface_low, &axes);
+    let how = Standing { ground, reach: REACH * placement.edge, diameter, round };
+    let supports = stand(weave, &mut axes, &pairs, &how);
+    let crossings = crossings(weave, &axes, joints).map_err(|f| vec![f])?;
+    let seats = seats(weave, joints, &crossings);
+    Ok(assemble(
+        weave,
+        lifted,
+        &axes,
+        joints,
+        &crossings,
+        &seats,
+        Ground { diameter, ground, supports },
+    ))
+}
+
+fn clash_faults(
+    weave: &Weave,
+    axes: &IdVec<RodId, Axis>,
+    diameter: f64,
+    pairs: &BTreeSet<[RodId; 2]>,
+) -> Vec<Fault> {
+    clashes(axes, diameter, pairs)
+        .iter()
+        .map(|clash| {
+            let [p, q] = clash.rods;
+            let units = clash.rods.iter().flat_map(|&r| weave.rods[r].units).flatten().collect();
+            let reason = format!(
+                "rods {p} and {q} would run into each other: their axes pass at {:.2} mm",
+                clash.distance
+            );
+            Fault { units, reason }
+        })
+        .collect()
+}
+
+/// What a frame stands on.
+struct Ground {
+    diameter: f64,
+    ground: f64,
+    supports: Vec<Support>,
+}
+
+fn assemble(
+    weave: &Weave,
+    lifted: &Lifted,
+    axes: &IdVec<RodId, Axis>,
+    joints: &IdVec<ContactId, Joint>,
+    crossings: &IdVec<ContactId, Crossing>,
+    seats: &IdVec<RodId, Vec<Seat>>,
+    on: Ground,
+) -> Frame {
+    let contacts = joints
+        .enumerate()
+        .map(|(id, joint)| {
+            let x = &crossings[id];
+            let [u, v] = [joint.over, joint.under].map(|r| axes[r].direction());
+            Contact {
+                over: joint.over,
+                under: joint.under,
+                at_over: x.at_first,
+                at_under: x.at_second,
+                angle: u.cross(&v).norm().atan2(u.dot(&v).abs()),
+                gap: x.rise,
+                normal: joint.outward,
+                unit: weave.contacts[id].unit,
+            }
+        })
+        .collect();
+    let rods = axes
+        .enumerate()
+        .map(|(r, axis)| Rod {
+            axis: *axis,
+            units: weave.rods[r].units.into_iter().flatten().collect(),
+            contacts: seats[r].iter().map(|s| s.contact).collect(),
+        })
+        .collect();
+    let units = weave
+        .units
+        .enumerate()
+        .map(|(u, woven)| Unit {
+            center: lifted.centers[u],
+            chirality: woven.chirality,
+            rods: woven.rods.clone(),
+            contacts: woven.contacts.clone(),
+        })
+        .collect();
+    let Ground { diameter, ground, supports } = on;
+    Frame { diameter, ground, rods, contacts, units, supports, dropped: Vec::new() }
+}
+
+/// The tiles that a pattern would have on a chart, and its median rise, mm: what
+/// [`fit`](super::fit) looks at.
+pub fn median_rise(
+    chart: &impl Chart,
+    pattern: &Pattern,
+    placement: &Placement,
+    turn: f64,
+) -> Option<(Vec<TileId>, f64)> {
+    let tiling = patch(chart, pattern, placement);
+    let tiles = crop(&tiling, placement, turn, chart, &BTreeSet::new());
+    if tiles.len() < LEAST_UNITS {
+        return None;
+    }
+    let weave = weave(&tiling, &tiles, turn);
+    let mut rises: Vec<f64> =
+        lift(&weave, placement, chart).ok()?.rises(&weave).iter().map(|rise| rise.abs()).collect();
+    rises.sort_by(f64::total_cmp);
+    Some((tiles, rises[rises.len() / 2]))
+}

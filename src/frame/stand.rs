@@ -1,0 +1,100 @@
+//! Border rods that reach down are made long enough to stand on the ground.
+
+use super::axis::Axis;
+use super::clash::is_clear;
+use super::cut::rounded_up;
+use super::weave::Weave;
+use super::{End, Support};
+use crate::ids::{IdVec, RodId};
+use std::collections::BTreeSet;
+
+/// Least sine of the slope at which a rod is let down to the ground. Flatter rods
+/// would slide out rather than stand.
+const LEAST_SLOPE: f64 = 0.25;
+
+/// The ground below a frame: the lowest point of the surface, or of the rods where
+/// they reach lower.
+pub fn ground_level(surface_low: f64, axes: &IdVec<RodId, Axis>) -> f64 {
+    axes.iter().flat_map(|axis| [axis.a.z, axis.b.z]).fold(surface_low, f64::min)
+}
+
+/// How rods may be let down.
+#[derive(Clone, Copy, Debug)]
+pub struct Standing {
+    /// Height of the ground, mm.
+    pub ground: f64,
+    /// Longest piece that may be added to a rod, mm.
+    pub reach: f64,
+    /// Rod diameter, mm.
+    pub diameter: f64,
+    /// Rod lengths are multiples of this, mm; 0 for any length.
+    pub round: f64,
+}
+
+/// Lengthens border rods at end A down to the ground, one after the other, where
+/// they are steep enough, near enough, and stay clear of all other rods.
+///
+/// `contacts` holds the pairs of rods that touch.
+pub fn stand(
+    weave: &Weave,
+    axes: &mut IdVec<RodId, Axis>,
+    contacts: &BTreeSet<[RodId; 2]>,
+    how: &Standing,
+) -> Vec<Support> {
+    let mut supports = Vec::new();
+    for r in weave.rods.ids().filter(|&r| weave.rods[r].units[0].is_none()) {
+        let Some(longer) = let_down(&axes[r], how) else { continue };
+        let mut except: BTreeSet<RodId> =
+            contacts.iter().filter(|p| p.contains(&r)).flatten().copied().collect();
+        except.insert(r);
+        if is_clear(&longer, axes, how.diameter, &except) {
+            axes[r] = longer;
+            supports.push(Support { rod: r, end: End::A, point: longer.a });
+        }
+    }
+    supports
+}
+
+/// The rod with end A on the ground; what rounding adds goes to end B.
+fn let_down(axis: &Axis, how: &Standing) -> Option<Axis> {
+    let down = -axis.direction();
+    let height = axis.a.z - how.ground;
+    if -down.z < LEAST_SLOPE || height < 0.0 {
+        return None;
+    }
+    let added = height / -down.z;
+    if added > how.reach {
+        return None;
+    }
+    let mut foot = axis.at(-added);
+    foot.z = how.ground;
+    let length = rounded_up(added + axis.length(), how.round);
+    Some(Axis { a: foot, b: foot - down * length })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HOW: Standing = Standing { ground: -1.0, reach: 20.0, diameter: 3.0, round: 0.5 };
+
+    #[test]
+    fn a_steep_rod_comes_to_stand_with_a_round_length() {
+        let axis = Axis { a: [0.0, 0.0, 5.0].into(), b: [30.0, 0.0, 45.0].into() };
+        let down = let_down(&axis, &HOW).unwrap();
+        assert_eq!(down.a.z, -1.0);
+        assert!((down.length() - 57.5).abs() < 1e-9, "50 and 7.5: {}", down.length());
+        assert!((down.direction() - axis.direction()).norm() < 1e-12);
+    }
+
+    #[test]
+    fn flat_far_and_upward_rods_stay_as_they_are() {
+        for (a, b) in [
+            ([0.0, 0.0, 5.0], [40.0, 0.0, 9.0]),
+            ([0.0, 0.0, 50.0], [0.0, 1.0, 90.0]),
+            ([0.0, 0.0, 45.0], [0.0, 0.0, 5.0]),
+        ] {
+            assert!(let_down(&Axis { a: a.into(), b: b.into() }, &HOW).is_none());
+        }
+    }
+}
