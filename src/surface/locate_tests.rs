@@ -3,6 +3,7 @@
 use super::*;
 use crate::surface::samples;
 use proptest::prelude::*;
+use std::sync::LazyLock;
 
 fn coordinate() -> impl Strategy<Value = f64> {
     // Whole numbers as often as not, to meet corners, sides and needles.
@@ -84,12 +85,12 @@ proptest! {
     fn a_planar_point_lies_in_the_triangle_it_was_made_from(
         face in 0_usize..5000, u in 0.0..1.0_f64, v in 0.0..1.0_f64
     ) {
-        let (positions, mesh) = flat();
+        let (positions, mesh, locator) = &*FLAT;
         let face = FaceId::new(face % mesh.triangles.len());
         let w = if u + v > 1.0 { [u + v - 1.0, 1.0 - u, 1.0 - v] } else { [1.0 - u - v, u, v] };
         let corners = mesh.triangles[face].map(|c| positions[c.index()]);
         let p = blend(&corners, w);
-        let found = PlanarLocator::new(&positions, &mesh.triangles).locate(p).expect("inside");
+        let found = locator.locate(p).expect("inside");
         let again = mesh.triangles[found.face].map(|c| positions[c.index()]);
         prop_assert!((blend(&again, found.barycentric) - p).norm() < 1e-6);
         if w.iter().all(|w| *w > 1e-6) {
@@ -98,15 +99,17 @@ proptest! {
     }
 }
 
-fn flat() -> (Vec<Point2<f64>>, Mesh) {
+/// A flat sheet: its points in the plane, its mesh, its locator.
+static FLAT: LazyLock<(Vec<Point2<f64>>, Mesh, PlanarLocator)> = LazyLock::new(|| {
     let mesh = samples::sample("flat").expect("a sample");
-    (mesh.points.iter().map(|p| p.xy()).collect(), mesh)
-}
+    let positions: Vec<_> = mesh.points.iter().map(|p| p.xy()).collect();
+    let locator = PlanarLocator::new(&positions, &mesh.triangles);
+    (positions, mesh, locator)
+});
 
 #[test]
 fn every_corner_and_edge_midpoint_of_a_flat_mesh_is_found() {
-    let (positions, mesh) = flat();
-    let locator = PlanarLocator::new(&positions, &mesh.triangles);
+    let (positions, mesh, locator) = &*FLAT;
     for t in &mesh.triangles {
         for k in 0..3 {
             let (a, b) = (positions[t[k].index()], positions[t[(k + 1) % 3].index()]);
@@ -121,8 +124,7 @@ fn every_corner_and_edge_midpoint_of_a_flat_mesh_is_found() {
 
 #[test]
 fn a_point_outside_a_flat_mesh_is_in_no_triangle_but_near_one() {
-    let (positions, mesh) = flat();
-    let locator = PlanarLocator::new(&positions, &mesh.triangles);
+    let (positions, mesh, locator) = &*FLAT;
     let p = Point2::new(310.0, 12.5);
     assert_eq!(locator.locate(p), None);
     let found = locator.closest(p).expect("a mesh with triangles");

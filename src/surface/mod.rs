@@ -3,9 +3,13 @@
 
 pub mod bvh;
 pub mod locate;
+pub mod mend;
+mod orient;
 pub mod samples;
 pub mod shape;
 pub mod topology;
+pub mod up;
+mod weld;
 
 use crate::ids::{FaceId, IdVec, VertexId};
 

@@ -174,6 +174,11 @@ fn count_fans(topology: &Topology, piece_of: &IdVec<FaceId, usize>, count: usize
     fans
 }
 
+/// A number with the word for one or for many.
+pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
+    if count == 1 { format!("1 {one}") } else { format!("{count} {many}") }
+}
+
 /// A point as text, to the nearest millimetre or three digits, whichever is finer.
 pub(super) fn place(p: Point3) -> String {
     format!("({}, {}, {}) mm", short(p.x), short(p.y), short(p.z))

@@ -8,7 +8,7 @@
 //! except to name places in messages.
 
 use crate::ids::{FaceId, Id, IdVec, VertexId};
-use crate::surface::shape::{self, Shape};
+use crate::surface::shape::{Shape, counted, place};
 use crate::surface::{Mesh, Point3};
 use std::fmt;
 
@@ -56,7 +56,7 @@ impl HalfedgeId {
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum TopologyError {
     /// A triangle names a vertex that does not exist.
-    #[error("triangle {face} uses vertex {vertex}, but there are only {vertices} vertices")]
+    #[error("triangle {face} uses vertex {vertex}, but the vertices end at {vertices}")]
     VertexOutOfRange {
         /// The triangle.
         face: FaceId,
@@ -66,7 +66,10 @@ pub enum TopologyError {
         vertices: usize,
     },
     /// Edges with three triangles or more.
-    #[error("{count} edges carry more than two triangles: {}", edge_list(.first))]
+    #[error(
+        "{} more than two triangles: {}",
+        counted(*.count, "edge carries", "edges carry"), edge_list(.first)
+    )]
     NonManifoldEdges {
         /// How many such edges there are.
         count: usize,
@@ -75,8 +78,8 @@ pub enum TopologyError {
     },
     /// Neighbours that run round in opposite senses.
     #[error(
-        "{count} edges are run through twice in the same direction, so the triangles beside \
-         them face opposite ways: {}", edge_list(.first)
+        "the triangles beside {} face opposite ways: {}",
+        counted(*.count, "edge", "edges"), edge_list(.first)
     )]
     Orientation {
         /// How many such edges there are.
@@ -86,8 +89,8 @@ pub enum TopologyError {
     },
     /// Vertices where two fans of triangles touch only in this point.
     #[error(
-        "{count} vertices join parts of the surface that share no edge there: {}",
-        vertex_list(.first)
+        "parts of the surface touch in {} without sharing an edge there: {}",
+        counted(*.count, "vertex", "vertices"), vertex_list(.first)
     )]
     NonManifoldVertices {
         /// How many such vertices there are.
@@ -130,7 +133,7 @@ fn edge_list(edges: &[[VertexId; 2]]) -> String {
 
 fn vertex_list(vertices: &[(VertexId, Point3)]) -> String {
     let items: Vec<_> =
-        vertices.iter().map(|(v, p)| format!("vertex {v} at {}", shape::place(*p))).collect();
+        vertices.iter().map(|(v, p)| format!("vertex {v} at {}", place(*p))).collect();
     format!("first {}", items.join(", "))
 }
 

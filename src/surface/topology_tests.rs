@@ -128,7 +128,7 @@ fn neighbours_that_face_opposite_ways_are_named() {
 #[test]
 fn a_vertex_that_does_not_exist_is_named() {
     let error = Topology::new(&mesh(&[[0.0; 3]], &[[0, 0, 7]])).expect_err("vertex 8");
-    assert_eq!(error.to_string(), "triangle 1 uses vertex 8, but there are only 1 vertices");
+    assert_eq!(error.to_string(), "triangle 1 uses vertex 8, but the vertices end at 1");
 }
 
 #[test]
