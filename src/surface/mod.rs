@@ -5,6 +5,7 @@ pub mod bvh;
 pub mod locate;
 pub mod mend;
 mod orient;
+pub mod read;
 pub mod samples;
 pub mod shape;
 pub mod topology;
