@@ -9,3 +9,4 @@ pub mod pattern;
 pub mod surface;
 pub mod tiling;
 pub mod units;
+pub mod write;

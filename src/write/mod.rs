@@ -1,0 +1,3 @@
+//! Writers: one file a format.
+
+pub mod obj;
