@@ -1,0 +1,83 @@
+//! A small frame for tests: one unit that stands on its rods' ends A.
+
+use crate::chart::SurfacePoint;
+use crate::frame::axis::Axis;
+use crate::frame::close::{Joint, close};
+use crate::frame::{Chirality, Contact, End, Frame, Rod, Support, Unit};
+use crate::ids::{ContactId, Id, IdVec, RodId, UnitId};
+use crate::surface::Vector3;
+use std::f64::consts::TAU;
+
+/// Radius of the hole, mm.
+const RADIUS: f64 = 40.0;
+/// Height of the unit over the ground, mm.
+const HEIGHT: f64 = 25.0;
+/// Rod left beyond the last contact, at least, mm.
+const OVERHANG: f64 = 6.0;
+
+/// `n` rods in a closed circuit, each with end A on the ground and end B on the next
+/// rod; cut lengths are multiples of half a mm.
+pub(crate) fn circuit(n: usize, diameter: f64) -> Frame {
+    let mut axes: IdVec<RodId, Axis> = (0..n).map(|i| tangent(i, n)).collect();
+    let id = |i: usize| RodId::new(i % n);
+    let joints: IdVec<ContactId, Joint> = (0..n)
+        .map(|i| Joint { over: id(i), under: id(i + 1), outward: Vector3::z(), gap: diameter })
+        .collect();
+    close(&mut axes, &joints).unwrap();
+    let axes: IdVec<RodId, Axis> = (0..n).map(|i| cut(&axes, &joints, i)).collect();
+    let contacts: IdVec<ContactId, Contact> = joints.iter().map(|j| contact(&axes, j)).collect();
+    let around = |i: usize| vec![ContactId::new((i + n - 1) % n), ContactId::new(i)];
+    let rods: IdVec<RodId, Rod> = axes
+        .enumerate()
+        .map(|(r, &axis)| Rod { axis, units: vec![UnitId::new(0)], contacts: around(r.index()) })
+        .collect();
+    let supports =
+        rods.enumerate().map(|(rod, r)| Support { rod, end: End::A, point: r.axis.a }).collect();
+    let unit = Unit {
+        center: SurfacePoint { position: [0.0, 0.0, HEIGHT].into(), normal: Vector3::z() },
+        chirality: Chirality::CounterClockwise,
+        rods: rods.ids().collect(),
+        contacts: contacts.ids().collect(),
+    };
+    Frame {
+        diameter,
+        ground: 0.0,
+        rods,
+        contacts,
+        units: vec![unit].into(),
+        supports,
+        dropped: Vec::new(),
+    }
+}
+
+fn tangent(i: usize, n: usize) -> Axis {
+    let (sin, cos) = (TAU * i as f64 / n as f64).sin_cos();
+    let middle = Vector3::new(cos * RADIUS, sin * RADIUS, HEIGHT);
+    let along = Vector3::new(-sin, cos, 0.02) * RADIUS;
+    Axis { a: (middle - along).into(), b: (middle + along).into() }
+}
+
+/// From the ground to the overhang, to a length that is a multiple of half a mm.
+fn cut(axes: &IdVec<RodId, Axis>, joints: &IdVec<ContactId, Joint>, i: usize) -> Axis {
+    let axis = &axes[RodId::new(i)];
+    let joint = &joints[ContactId::new(i)];
+    let last = axis.cross(&axes[joint.under], &Vector3::z()).unwrap().at_first;
+    let foot = -axis.a.z / axis.direction().z;
+    let length = ((last + OVERHANG - foot) * 2.0 - 1e-6).ceil() / 2.0;
+    axis.between(foot, foot + length)
+}
+
+fn contact(axes: &IdVec<RodId, Axis>, joint: &Joint) -> Contact {
+    let (over, under) = (&axes[joint.over], &axes[joint.under]);
+    let x = over.cross(under, &joint.outward).unwrap();
+    Contact {
+        over: joint.over,
+        under: joint.under,
+        at_over: x.at_first,
+        at_under: x.at_second,
+        angle: over.direction().dot(&under.direction()).abs().min(1.0).acos(),
+        gap: x.rise,
+        normal: joint.outward,
+        unit: UnitId::new(0),
+    }
+}
