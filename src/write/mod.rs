@@ -1,3 +1,6 @@
 //! Writers: one file a format.
 
+mod figure;
+mod json;
 pub mod obj;
+pub mod structure;
