@@ -1,0 +1,154 @@
+//! The sawing plan as files: `cutlist.json` for programs, `cutlist.csv` for the saw.
+
+use super::figure::{figure, rounded};
+use super::json::Document;
+use super::tables::{TableError, table};
+use crate::shop::cutlist::{Bar, CutPlan, Piece};
+use crate::shop::lengths::LengthClasses;
+use serde::Serialize;
+
+/// The columns of `cutlist.csv`: a row a piece, in the order of sawing. A piece runs
+/// from `start_mm` to `stop_mm`, both measured from the bar's end.
+pub const COLUMNS: [&str; 9] = [
+    "bar",
+    "stock_length_mm",
+    "position",
+    "rod",
+    "length_mm",
+    "class",
+    "start_mm",
+    "stop_mm",
+    "left_mm",
+];
+
+/// Digits after the point of lengths, mm: only the noise of arithmetic goes.
+const DIGITS: usize = 6;
+
+fn exact(x: f64) -> f64 {
+    rounded(x, DIGITS as i32)
+}
+
+#[derive(Serialize)]
+struct BarEntry {
+    stock_length: f64,
+    rods: Vec<String>,
+    left: f64,
+    stops: Vec<f64>,
+}
+
+impl From<&Bar> for BarEntry {
+    fn from(bar: &Bar) -> Self {
+        Self {
+            stock_length: exact(bar.stock_length),
+            rods: bar.pieces.iter().map(|p| p.rod.to_string()).collect(),
+            left: exact(bar.left),
+            stops: bar.pieces.iter().map(|p| exact(p.stop)).collect(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct StockEntry {
+    stock_length: f64,
+    count: usize,
+}
+
+/// The text of `cutlist.json`. `waste` is the share of the bought length that does
+/// not become rods; `bound` is a number of bars that no plan goes below, and the plan
+/// is `proven` where it reaches it.
+///
+/// # Errors
+/// [`TableError`], which no sawing plan causes.
+pub fn cutlist_json(plan: &CutPlan) -> Result<String, TableError> {
+    document(plan).map_err(|e| TableError { table: "cutlist.json", reason: e.to_string() })
+}
+
+fn document(plan: &CutPlan) -> Result<String, serde_json::Error> {
+    let bars: Vec<BarEntry> = plan.bars.iter().map(BarEntry::from).collect();
+    let stock = |(stock_length, count)| StockEntry { stock_length: exact(stock_length), count };
+    let buy: Vec<StockEntry> = plan.shopping().into_iter().map(stock).collect();
+    let mut document = Document::new();
+    document.value("kerf", &plan.kerf)?;
+    document.list("bars", &bars)?;
+    document.value("waste", &exact(plan.waste()))?;
+    document.list("buy", &buy)?;
+    document.value("cuts", &plan.cuts())?;
+    document.value("used", &exact(plan.used()))?;
+    document.value("bought", &exact(plan.bought()))?;
+    document.value("bound", &plan.bound)?;
+    document.value("proven", &plan.is_proven())?;
+    Ok(document.finish())
+}
+
+/// The bytes of `cutlist.csv`.
+///
+/// # Errors
+/// [`TableError`], which no sawing plan causes.
+pub fn cutlist_csv(plan: &CutPlan, classes: &LengthClasses) -> Result<Vec<u8>, TableError> {
+    let rows = plan.bars.iter().enumerate().flat_map(|(number, bar)| {
+        let row = move |(place, piece): (usize, &Piece)| {
+            vec![
+                (number + 1).to_string(),
+                figure(bar.stock_length, DIGITS),
+                (place + 1).to_string(),
+                piece.rod.to_string(),
+                figure(piece.length, DIGITS),
+                classes.of(piece.rod).name.clone(),
+                figure(piece.stop - piece.length, DIGITS),
+                figure(piece.stop, DIGITS),
+                figure(bar.left, DIGITS),
+            ]
+        };
+        bar.pieces.iter().enumerate().map(row).collect::<Vec<_>>()
+    });
+    table("cutlist.csv", &COLUMNS, rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shop::cutlist::{Stock, plan};
+    use crate::shop::lengths::classes_of;
+    use serde_json::{Value, json};
+
+    fn tenth() -> (CutPlan, LengthClasses) {
+        // 0.1 + 0.2 and the like leave noise in the stops.
+        let lengths = vec![100.1, 50.2, 100.1, 30.3].into();
+        let stock = Stock { lengths: vec![210.0, 120.0], kerf: 0.7 };
+        (plan(&lengths, &stock).unwrap(), classes_of(&lengths))
+    }
+
+    #[test]
+    fn json_has_the_keys_of_the_contract() {
+        let (plan, _) = tenth();
+        let v: Value = serde_json::from_str(&cutlist_json(&plan).unwrap()).unwrap();
+        assert_eq!(v["kerf"], 0.7);
+        let mut rods: Vec<&Value> = Vec::new();
+        for bar in v["bars"].as_array().unwrap() {
+            let stops = bar["stops"].as_array().unwrap();
+            let last = stops.last().unwrap().as_f64().unwrap();
+            let left = bar["left"].as_f64().unwrap();
+            assert!((bar["stock_length"].as_f64().unwrap() - last - 0.7 - left).abs() < 1e-6);
+            rods.extend(bar["rods"].as_array().unwrap());
+        }
+        rods.sort_by_key(|r| r.as_str());
+        assert_eq!(json!(rods), json!(["R001", "R002", "R003", "R004"]));
+        let waste = v["waste"].as_f64().unwrap();
+        assert!((waste - (1.0 - 280.7 / v["bought"].as_f64().unwrap())).abs() < 1e-6);
+        assert!(v["proven"].is_boolean() && v["bound"].is_u64());
+    }
+
+    #[test]
+    fn csv_has_a_row_a_piece_with_its_stops() {
+        let (plan, classes) = tenth();
+        let text = String::from_utf8(cutlist_csv(&plan, &classes).unwrap()).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(
+            lines[0],
+            "bar,stock_length_mm,position,rod,length_mm,class,start_mm,stop_mm,left_mm"
+        );
+        assert_eq!(lines.len(), 5);
+        assert_eq!(lines[1], "1,210,1,R001,100.1,A,0,100.1,8.4");
+        assert_eq!(lines[2], "1,210,2,R003,100.1,A,100.8,200.9,8.4");
+    }
+}

@@ -1,0 +1,284 @@
+//! Tables for spreadsheets and scripts: `rods.csv`, `contacts.csv`, `supports.csv`.
+//!
+//! Comma-separated with a header, UTF-8, one line feed a row. Positions and marks are
+//! rounded to a micrometre, angles to a thousandth of a degree; cut lengths stand as
+//! they are to be sawn. Lists inside a cell are separated by spaces.
+
+use super::figure::figure;
+use crate::frame::{End, Frame};
+use crate::ids::{ContactId, IdVec, RodId};
+use crate::shop::feet;
+use crate::shop::lengths::LengthClasses;
+use crate::shop::marks;
+use csv::Writer;
+use thiserror::Error;
+
+/// The columns of `rods.csv`. `contacts` lists those of the rod from end A on;
+/// `support` is the letter of the end that stands on the ground, if one does.
+pub const RODS: [&str; 12] = [
+    "id",
+    "cut_length_mm",
+    "diameter_mm",
+    "class",
+    "ax",
+    "ay",
+    "az",
+    "bx",
+    "by",
+    "bz",
+    "contacts",
+    "support",
+];
+
+/// The columns of `contacts.csv`. A clock angle tells where the partner lies round
+/// the rod: clockwise, seen from its end A, with its first contact at 0.
+pub const CONTACTS: [&str; 10] = [
+    "id",
+    "kind",
+    "over",
+    "under",
+    "at_over_mm",
+    "at_under_mm",
+    "angle_deg",
+    "clock_over_deg",
+    "clock_under_deg",
+    "unit",
+];
+
+/// The columns of `supports.csv`.
+pub const SUPPORTS: [&str; 7] =
+    ["rod", "end", "x", "y", "elevation_deg", "azimuth_deg", "bevel_deg"];
+
+/// Why a table could not be made.
+#[derive(Error, Debug)]
+#[error("table {table} cannot be written: {reason}")]
+pub struct TableError {
+    /// The table.
+    pub table: &'static str,
+    /// What the writer said.
+    pub reason: String,
+}
+
+/// Digits after the point of positions and marks, mm.
+const LENGTH_DIGITS: usize = 3;
+/// Digits after the point of angles, degrees.
+const ANGLE_DIGITS: usize = 3;
+/// Digits after the point of cut lengths, mm: only the noise of arithmetic goes.
+const CUT_DIGITS: usize = 6;
+
+fn length(x: f64) -> String {
+    figure(x, LENGTH_DIGITS)
+}
+
+/// Radians as degrees.
+fn angle(x: f64) -> String {
+    figure(x.to_degrees(), ANGLE_DIGITS)
+}
+
+/// An angle in radians as degrees below 360, also after rounding.
+fn turn(x: f64) -> String {
+    let text = angle(x);
+    if text == "360" { "0".into() } else { text }
+}
+
+/// The bytes of `rods.csv`.
+///
+/// # Errors
+/// [`TableError`], which none of a frame's figures causes.
+pub fn rods(frame: &Frame, classes: &LengthClasses) -> Result<Vec<u8>, TableError> {
+    let row = |(r, rod): (RodId, &crate::frame::Rod)| {
+        let contacts: Vec<String> =
+            marks::marks(frame, r).iter().map(|m| m.contact.to_string()).collect();
+        let [a, b] = [rod.axis.a, rod.axis.b];
+        let mut cells = vec![
+            r.to_string(),
+            figure(rod.axis.length(), CUT_DIGITS),
+            figure(frame.diameter, CUT_DIGITS),
+            classes.of(r).name.clone(),
+        ];
+        cells.extend([a.x, a.y, a.z, b.x, b.y, b.z].map(length));
+        cells.push(contacts.join(" "));
+        cells.push(standing_ends(frame, r));
+        cells
+    };
+    table("rods.csv", &RODS, frame.rods.enumerate().map(row))
+}
+
+/// The letters of a rod's ends on the ground.
+fn standing_ends(frame: &Frame, rod: RodId) -> String {
+    frame.supports.iter().filter(|s| s.rod == rod).map(|s| letter(s.end)).collect()
+}
+
+fn letter(end: End) -> &'static str {
+    match end {
+        End::A => "A",
+        End::B => "B",
+    }
+}
+
+/// The bytes of `contacts.csv`.
+///
+/// # Errors
+/// [`TableError`], which none of a frame's figures causes.
+pub fn contacts(frame: &Frame) -> Result<Vec<u8>, TableError> {
+    let clocks = clocks(frame);
+    let row = |(c, contact): (ContactId, &crate::frame::Contact)| {
+        let [over, under] = clocks[c];
+        vec![
+            c.to_string(),
+            "cross".into(),
+            contact.over.to_string(),
+            contact.under.to_string(),
+            length(contact.at_over),
+            length(contact.at_under),
+            angle(contact.angle),
+            turn(over),
+            turn(under),
+            contact.unit.to_string(),
+        ]
+    };
+    table("contacts.csv", &CONTACTS, frame.contacts.enumerate().map(row))
+}
+
+/// The clock angles of every contact on its over and under rod, radians.
+fn clocks(frame: &Frame) -> IdVec<ContactId, [f64; 2]> {
+    let mut clocks: IdVec<ContactId, [f64; 2]> = vec![[0.0; 2]; frame.contacts.len()].into();
+    for rod in frame.rods.ids() {
+        for mark in marks::marks(frame, rod) {
+            clocks[mark.contact][usize::from(!mark.over)] = mark.clock;
+        }
+    }
+    clocks
+}
+
+/// The bytes of `supports.csv`.
+///
+/// # Errors
+/// [`TableError`], which none of a frame's figures causes.
+pub fn supports(frame: &Frame) -> Result<Vec<u8>, TableError> {
+    let row = |foot: feet::Foot| {
+        vec![
+            foot.rod.to_string(),
+            letter(foot.end).into(),
+            length(foot.x),
+            length(foot.y),
+            angle(foot.elevation),
+            turn(foot.azimuth),
+            angle(foot.bevel),
+        ]
+    };
+    table("supports.csv", &SUPPORTS, feet::feet(frame).into_iter().map(row))
+}
+
+/// A header and rows as the bytes of a CSV file.
+pub(super) fn table(
+    name: &'static str,
+    header: &[&str],
+    rows: impl IntoIterator<Item = Vec<String>>,
+) -> Result<Vec<u8>, TableError> {
+    let fail = |reason: String| TableError { table: name, reason };
+    let mut writer = Writer::from_writer(Vec::new());
+    writer.write_record(header).map_err(|e| fail(e.to_string()))?;
+    for row in rows {
+        writer.write_record(row).map_err(|e| fail(e.to_string()))?;
+    }
+    writer.into_inner().map_err(|e| fail(e.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ids::Id;
+    use crate::shop::fixture::circuit;
+    use crate::shop::lengths::classes;
+
+    fn rows(bytes: &[u8]) -> Vec<Vec<String>> {
+        let mut reader = csv::Reader::from_reader(bytes);
+        reader.records().map(|r| r.unwrap().iter().map(str::to_owned).collect()).collect()
+    }
+
+    fn first_line(bytes: &[u8]) -> &str {
+        std::str::from_utf8(bytes).unwrap().lines().next().unwrap()
+    }
+
+    #[test]
+    fn headers_are_those_of_the_contract() {
+        let frame = circuit(3, 3.0);
+        assert_eq!(
+            first_line(&rods(&frame, &classes(&frame)).unwrap()),
+            "id,cut_length_mm,diameter_mm,class,ax,ay,az,bx,by,bz,contacts,support"
+        );
+        assert_eq!(
+            first_line(&contacts(&frame).unwrap()),
+            "id,kind,over,under,at_over_mm,at_under_mm,angle_deg,clock_over_deg,clock_under_deg,unit"
+        );
+        assert_eq!(
+            first_line(&supports(&frame).unwrap()),
+            "rod,end,x,y,elevation_deg,azimuth_deg,bevel_deg"
+        );
+    }
+
+    #[test]
+    fn a_rod_row_tells_where_it_lies() {
+        let mut frame = circuit(4, 3.0);
+        frame.supports.remove(1);
+        let rows = rows(&rods(&frame, &classes(&frame)).unwrap());
+        assert_eq!(rows.len(), 4);
+        for (row, (r, rod)) in rows.iter().zip(frame.rods.enumerate()) {
+            let number = |i: usize| row[i].parse::<f64>().unwrap();
+            assert_eq!(row[0], r.to_string());
+            assert!((number(1) - rod.axis.length()).abs() < 1e-6);
+            assert_eq!((number(1) * 2.0).fract(), 0.0, "cut to half mm: {}", row[1]);
+            assert_eq!((row[2].as_str(), row[3].as_str()), ("3", "A"));
+            assert!((number(4) - rod.axis.a.x).abs() <= 0.000_5 + 1e-9);
+            assert!((number(9) - rod.axis.b.z).abs() <= 0.000_5 + 1e-9);
+            assert_eq!(row[10].split(' ').count(), 2);
+        }
+        assert_eq!([&rows[0][11], &rows[1][11]], ["A", ""]);
+    }
+
+    #[test]
+    fn a_contact_row_has_the_clock_of_either_rod() {
+        let frame = circuit(4, 3.0);
+        let rows = rows(&contacts(&frame).unwrap());
+        for (row, (c, contact)) in rows.iter().zip(frame.contacts.enumerate()) {
+            assert_eq!(
+                row[..4],
+                [
+                    c.to_string(),
+                    "cross".into(),
+                    contact.over.to_string(),
+                    contact.under.to_string()
+                ]
+            );
+            let clock = |rod, cell: &str| {
+                let marks = marks::marks(&frame, rod);
+                let mark = marks.iter().find(|m| m.contact == c).unwrap();
+                let got: f64 = cell.parse().unwrap();
+                assert!((got - mark.clock.to_degrees()).abs() < 1e-3);
+            };
+            clock(contact.over, &row[7]);
+            clock(contact.under, &row[8]);
+        }
+        let under_first = frame.contacts[ContactId::new(0)].under;
+        assert_eq!(rows[0][3], under_first.to_string());
+    }
+
+    #[test]
+    fn a_support_row_stands_upright() {
+        let frame = circuit(3, 3.0);
+        let rows = rows(&supports(&frame).unwrap());
+        assert_eq!(rows.len(), 3);
+        for row in rows {
+            let number = |i: usize| row[i].parse::<f64>().unwrap();
+            assert!((number(4) + number(6) - 90.0).abs() < 2e-3);
+            assert!(number(5) >= 0.0 && number(5) < 360.0);
+        }
+    }
+
+    #[test]
+    fn a_full_turn_is_none() {
+        assert_eq!(turn(std::f64::consts::TAU - 1e-9), "0");
+        assert_eq!(turn(3.0_f64.to_radians()), "3");
+    }
+}
