@@ -2,6 +2,7 @@
 
 pub mod cutlist;
 mod figure;
+pub mod glb;
 mod json;
 pub mod obj;
 pub mod structure;
