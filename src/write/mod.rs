@@ -2,6 +2,7 @@
 
 pub mod cutlist;
 mod figure;
+pub mod folder;
 pub mod glb;
 mod json;
 pub mod obj;
