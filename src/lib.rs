@@ -6,6 +6,7 @@ pub mod frame;
 pub mod ids;
 pub mod linalg;
 pub mod pattern;
+pub mod sheets;
 pub mod shop;
 pub mod surface;
 pub mod tiling;

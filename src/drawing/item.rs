@@ -1,7 +1,7 @@
 //! What can stand on a sheet: figures and texts.
 
-use super::font::{CAP_HEIGHT, text_width};
-use super::{Color, DrawingError, Paint, Point, Weight};
+use super::font::{CAP_HEIGHT, DESCENT, text_width};
+use super::{Color, DrawingError, Paint, Point, Rect, Weight};
 
 /// One thing on a sheet.
 #[derive(Clone, PartialEq, Debug)]
@@ -167,5 +167,43 @@ impl Text {
     /// Length of the line of text, mm.
     pub fn width(&self) -> Result<f64, DrawingError> {
         text_width(&self.string, self.size, self.weight)
+    }
+
+    /// The upright rectangle that the letters fill, from the deepest ones up to the
+    /// height of capitals.
+    pub fn extent(&self) -> Result<Rect, DrawingError> {
+        let width = self.width()?;
+        let left = match self.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => -width / 2.0,
+            Anchor::End => -width,
+        };
+        let (up, down) = (-self.size * CAP_HEIGHT, self.size * DESCENT);
+        let (sin, cos) = self.rotation.to_radians().sin_cos();
+        let place =
+            |[x, y]: Point| [self.at[0] + x * cos - y * sin, self.at[1] + x * sin + y * cos];
+        let corners = [[left, up], [left + width, up], [left, down], [left + width, down]];
+        let at = Rect { min: self.at, max: self.at };
+        Ok(Rect::around(corners.map(place)).unwrap_or(at))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extent_follows_anchor_and_turn() {
+        let mut text = Text::new([10.0, 20.0], 4.0, "R012");
+        let width = text.width().unwrap();
+        let start = text.extent().unwrap();
+        assert_eq!(start.min[0], 10.0);
+        assert!((start.max[0] - 10.0 - width).abs() < 1e-12);
+        assert!((start.min[1] - (20.0 - 4.0 * CAP_HEIGHT)).abs() < 1e-12);
+        let end = text.end().extent().unwrap();
+        assert!((end.max[0] - 10.0).abs() < 1e-12);
+        // Turned by a quarter, it runs upwards from below its position.
+        let up = text.rotate(-90.0).extent().unwrap();
+        assert!((up.height() - width).abs() < 1e-12 && (up.min[1] - 20.0).abs() < 1e-12);
     }
 }

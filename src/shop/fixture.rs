@@ -81,3 +81,33 @@ fn contact(axes: &IdVec<RodId, Axis>, joint: &Joint) -> Contact {
         unit: UnitId::new(0),
     }
 }
+
+/// A real frame: 3 mm rods on a sample surface.
+pub(crate) fn on_sample(surface: &str, pattern: &str) -> Frame {
+    use crate::chart::PlanarChart;
+    use crate::frame::fit::fit;
+    use crate::frame::form::{FormSettings, form};
+    use crate::surface::{samples::sample, topology::require_disk};
+    let mesh = sample(surface).unwrap();
+    let surface_low = mesh.bounds().unwrap()[0].z;
+    let topology = require_disk(&mesh).unwrap();
+    let chart = PlanarChart::new(mesh, &topology).unwrap();
+    let pattern = crate::pattern::Pattern::named(pattern).unwrap();
+    let (turn, diameter) = (pattern.turn.to_radians(), 3.0);
+    let placement = crate::tiling::Placement {
+        origin: Default::default(),
+        rotation: 0.0,
+        edge: 1.0,
+    };
+    let edge = fit(&chart, pattern, &placement, turn, diameter).unwrap().edge;
+    let settings = FormSettings {
+        diameter,
+        turn,
+        overhang: OVERHANG,
+        round: 0.5,
+        layering: Default::default(),
+        surface_low,
+    };
+    let placement = crate::tiling::Placement { edge, ..placement };
+    form(&chart, pattern, &placement, &settings).unwrap().frame
+}

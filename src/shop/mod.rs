@@ -18,7 +18,7 @@ pub use lengths::{LengthClass, LengthClasses, classes};
 pub use marks::{Mark, marks};
 
 /// A name in letters, counted from zero: `a` … `z`, `aa`, `ab` … with `first` = `'a'`.
-fn letters(index: usize, first: char) -> String {
+pub(crate) fn letters(index: usize, first: char) -> String {
     let first = first as u32;
     let mut left = index + 1;
     let mut name = Vec::new();

@@ -1,0 +1,206 @@
+//! The cut list: length classes, and which pieces are sawn from which bar.
+
+use super::format::percent;
+use super::page::{BODY, Column, Flow, Leaf, SMALL, TABLE, THIN, Table};
+use super::{SheetError, SheetSettings};
+use crate::drawing::font::text_width;
+use crate::drawing::{Color, Draw, DrawingError, Stroke, Weight};
+use crate::frame::Frame;
+use crate::ids::RodId;
+use crate::shop::{Bar, BarGroup, CutPlan, LengthClasses, classes};
+
+/// Height of the picture of a bar, mm.
+const BAR: f64 = 4.0;
+/// Height of a line of figures below it, mm.
+const LINE: f64 = TABLE * 1.4;
+/// Width of the column with the names of these lines, mm.
+const NAMES: f64 = 15.0;
+
+/// The pages of the cut list.
+pub(super) fn cut_list(
+    frame: &Frame,
+    plan: &CutPlan,
+    settings: &SheetSettings,
+) -> Result<Vec<Leaf>, SheetError> {
+    let mut flow = Flow::new(settings, "cut-list", "Cut list and sawing plan");
+    let classes = classes(frame);
+    flow.heading("Rods by length", 20.0);
+    flow.table(&class_table(&classes, settings))?;
+    flow.heading("Sawing plan", 40.0);
+    summary(&mut flow, plan)?;
+    let mut first = 1;
+    for group in plan.groups() {
+        bar_group(&mut flow, &group, first, plan, &classes)?;
+        first += group.bars.len();
+    }
+    Ok(flow.finish(None))
+}
+
+fn class_table(classes: &LengthClasses, settings: &SheetSettings) -> Table {
+    let units = settings.units;
+    let names = |rods: &[RodId]| rods.iter().map(RodId::to_string).collect::<Vec<_>>().join(" ");
+    let rows = classes
+        .iter()
+        .map(|c| {
+            let count = c.rods.len();
+            let total = units.total(c.length * count as f64);
+            vec![c.name.clone(), units.length(c.length), count.to_string(), total, names(&c.rods)]
+        })
+        .collect();
+    let columns = vec![
+        Column::text("class"),
+        Column::figure("length"),
+        Column::figure("count"),
+        Column::figure("total"),
+        Column::wrapped("rods"),
+    ];
+    Table { columns, rows }
+}
+
+fn summary(flow: &mut Flow, plan: &CutPlan) -> Result<(), DrawingError> {
+    let units = flow.units();
+    let stock: Vec<String> =
+        plan.shopping().iter().map(|(l, n)| format!("{n} × {}", units.measure(*l))).collect();
+    flow.paragraph(&format!(
+        "{} from {} bars ({}). {} cuts, each {} wide. {} of rod; waste {}.",
+        counted(plan.pieces(), "piece"),
+        plan.bars.len(),
+        stock.join(", "),
+        plan.cuts(),
+        units.measure(plan.kerf),
+        units.total(plan.used()),
+        percent(plan.waste()),
+    ))?;
+    let bound = plan.bound;
+    flow.paragraph(&if plan.is_proven() {
+        format!(
+            "No plan needs fewer than {bound} bars of the longest stock: this one is proven best."
+        )
+    } else {
+        format!(
+            "No plan needs fewer than {bound} bars of the longest stock; this one has {}. It is \
+             not proven best.",
+            plan.bars.len()
+        )
+    })?;
+    flow.paragraph(
+        "Stops are measured from the bar's end to the end of the piece; the saw cuts just beyond. \
+         Write its number on end A of each rod as it comes off.",
+    )
+}
+
+fn counted(n: usize, noun: &str) -> String {
+    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
+}
+
+/// Bars that are sawn alike: a picture, the stops, and the rods of each bar. `first`
+/// is the number of the first of them.
+fn bar_group(
+    flow: &mut Flow,
+    group: &BarGroup,
+    first: usize,
+    plan: &CutPlan,
+    classes: &LengthClasses,
+) -> Result<(), DrawingError> {
+    let (bar, units) = (group.first(), flow.units());
+    let mut rows = Vec::new();
+    let mut row = |name: String, weight: Weight, text: &dyn Fn(&Bar, usize) -> String, of: &Bar| {
+        let cells = (0..of.pieces.len()).map(|i| text(of, i)).collect();
+        rows.push(Row { name, weight, cells });
+    };
+    let piece = |b: &Bar, i: usize| {
+        format!("{} {}", classes.of(b.pieces[i].rod).name, units.length(b.pieces[i].length))
+    };
+    row("piece".to_owned(), Weight::Regular, &piece, bar);
+    row("stop at".to_owned(), Weight::Bold, &|b, i| units.length(b.pieces[i].stop), bar);
+    for (n, bar) in group.bars.iter().enumerate() {
+        let name = format!("bar {}", first + n);
+        row(name, Weight::Regular, &|b, i| b.pieces[i].rod.to_string(), bar);
+    }
+    // The picture stays with the first stops and rods.
+    flow.need(7.0 + BAR + 4.0 * LINE);
+    picture(flow, group, first, plan, classes)?;
+    table(flow, &rows, bar.pieces.len())
+}
+
+/// One line below the picture of a bar: a cell for each piece.
+struct Row {
+    name: String,
+    weight: Weight,
+    cells: Vec<String>,
+}
+
+/// The lines below the picture, broken where there are more pieces than fit.
+fn table(flow: &mut Flow, rows: &[Row], pieces: usize) -> Result<(), DrawingError> {
+    let mut cell: f64 = 0.0;
+    for row in rows {
+        for text in &row.cells {
+            cell = cell.max(text_width(text, TABLE, Weight::Bold)? + 3.0);
+        }
+    }
+    let per_line = (((flow.area().width() - NAMES) / cell) as usize).max(1);
+    for from in (0..pieces).step_by(per_line) {
+        flow.need(3.0 * LINE);
+        for row in rows {
+            flow.need(LINE);
+            let (x, y) = (flow.area().min[0], flow.y + TABLE);
+            flow.page().text([x, y], SMALL, row.name.as_str());
+            for (k, text) in row.cells.iter().skip(from).take(per_line).enumerate() {
+                let right = x + NAMES + cell * (k + 1) as f64 - 2.0;
+                flow.page().text([right, y], TABLE, text.as_str()).end().weight(row.weight);
+            }
+            flow.skip(LINE);
+        }
+        flow.skip(1.0);
+    }
+    flow.skip(2.5);
+    Ok(())
+}
+
+/// How many bars, and a bar to scale with the classes of its pieces.
+fn picture(
+    flow: &mut Flow,
+    group: &BarGroup,
+    first: usize,
+    plan: &CutPlan,
+    classes: &LengthClasses,
+) -> Result<(), DrawingError> {
+    let (bar, units) = (group.first(), flow.units());
+    let (area, y) = (flow.area(), flow.y);
+    let count = group.bars.len();
+    let numbers = match count {
+        1 => format!("bar {first}"),
+        _ => format!("bars {first} to {}", first + count - 1),
+    };
+    let left = if bar.left > 0.0 {
+        format!("left over {}", units.measure(bar.left))
+    } else {
+        "nothing left over".to_owned()
+    };
+    let page = flow.page();
+    let head = format!("{count} × {}", units.measure(bar.stock_length));
+    page.text([area.min[0], y + BODY + 0.5], BODY + 0.4, head).bold();
+    page.text([area.min[0] + 42.0, y + BODY + 0.5], BODY, numbers);
+    page.text([area.max[0], y + BODY + 0.5], BODY, left).end();
+    let (top, scale) = (y + 5.4, area.width() / bar.stock_length);
+    page.rect([area.min[0], top], [area.width(), BAR], THIN.fill(Color::LIGHT_GREY));
+    for piece in &bar.pieces {
+        let start = area.min[0] + (piece.stop - piece.length) * scale;
+        let width = piece.length * scale;
+        page.rect([start, top], [width, BAR], THIN.fill(Color::WHITE));
+        let name = &classes.of(piece.rod).name;
+        if text_width(name, TABLE, Weight::Regular)? + 1.0 < width {
+            page.text([start + width / 2.0, top + BAR / 2.0], TABLE, name.as_str())
+                .middle()
+                .vcenter();
+        }
+        // What the saw takes, at least as wide as a line.
+        let cut = start + width;
+        if piece.stop < bar.stock_length - plan.kerf / 2.0 {
+            let blade = Stroke::new((plan.kerf * scale).max(0.25));
+            page.line([cut, top - 0.8], [cut, top + BAR + 0.8], blade);
+        }
+    }
+    flow.skip(5.4 + BAR + 1.6);
+    Ok(())
+}

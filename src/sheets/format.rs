@@ -1,0 +1,101 @@
+//! How figures are printed.
+
+use serde::{Deserialize, Serialize};
+
+/// Millimetres to the inch.
+const MM_PER_INCH: f64 = 25.4;
+
+/// The unit in which documents print lengths. Files stay in mm.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, clap::ValueEnum)]
+pub enum PaperUnits {
+    /// Millimetres, to 0.1 mm.
+    #[default]
+    #[serde(rename = "mm")]
+    #[value(name = "mm")]
+    Mm,
+    /// Decimal inches, to 0.01 in.
+    #[serde(rename = "in")]
+    #[value(name = "in")]
+    Inch,
+}
+
+impl PaperUnits {
+    /// `mm` or `in`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mm => "mm",
+            Self::Inch => "in",
+        }
+    }
+
+    /// A length without its unit: every length on paper is printed by this.
+    pub fn length(self, mm: f64) -> String {
+        match self {
+            Self::Mm => fixed(mm, 1),
+            Self::Inch => fixed(mm / MM_PER_INCH, 2),
+        }
+    }
+
+    /// A length with its unit.
+    pub fn measure(self, mm: f64) -> String {
+        format!("{} {}", self.length(mm), self.name())
+    }
+
+    /// A long length with its unit: metres, or feet.
+    pub fn total(self, mm: f64) -> String {
+        match self {
+            Self::Mm => format!("{} m", fixed(mm / 1000.0, 2)),
+            Self::Inch => format!("{} ft", fixed(mm / (12.0 * MM_PER_INCH), 1)),
+        }
+    }
+}
+
+/// An angle given in radians, in degrees.
+pub(super) fn angle(radians: f64) -> String {
+    format!("{}°", fixed(radians.to_degrees(), 1))
+}
+
+/// A heading given in radians, in degrees from 0 to below 360.
+pub(super) fn heading(radians: f64) -> String {
+    let degrees = radians.to_degrees();
+    // 359.96° would be printed as a full turn.
+    let degrees = if degrees >= 359.95 { 0.0 } else { degrees };
+    format!("{}°", fixed(degrees, 1))
+}
+
+/// A share in per cent.
+pub(super) fn percent(share: f64) -> String {
+    format!("{} %", fixed(share * 100.0, 1))
+}
+
+/// With so many decimals; never `-0.0`.
+fn fixed(x: f64, decimals: usize) -> String {
+    let text = format!("{x:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if digits.chars().all(|c| c == '0' || c == '.') => digits.to_owned(),
+        _ => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_in_both_units() {
+        assert_eq!(PaperUnits::Mm.measure(112.44), "112.4 mm");
+        assert_eq!(PaperUnits::Inch.measure(254.0), "10.00 in");
+        assert_eq!(PaperUnits::Mm.length(-0.04), "0.0");
+        assert_eq!(PaperUnits::Mm.length(-0.06), "-0.1");
+        assert_eq!(PaperUnits::Mm.total(12_345.0), "12.35 m");
+        assert_eq!(PaperUnits::Inch.total(3048.0), "10.0 ft");
+    }
+
+    #[test]
+    fn a_full_turn_is_none() {
+        assert_eq!(heading(359.96_f64.to_radians()), "0.0°");
+        assert_eq!(heading(359.94_f64.to_radians()), "359.9°");
+        assert_eq!(angle(1.0_f64.atan()), "45.0°");
+        assert_eq!(percent(0.1234), "12.3 %");
+    }
+}

@@ -1,0 +1,96 @@
+//! The papers of the workshop: pages made of drawings.
+//!
+//! [`sheets`] gives the pages of the workshop document: cover, cut list with sawing
+//! plan, rod cards and the table of feet. [`support_map`] gives the map of the feet at
+//! full size, in one piece and tiled over pages. Nothing here writes files: pages are
+//! rendered by [`drawing::pdf`](crate::drawing::pdf) and [`drawing::svg`](crate::drawing::svg).
+
+mod cover;
+mod cut_list;
+mod format;
+mod legend;
+mod page;
+mod paper;
+mod rod_cards;
+mod strip;
+pub mod support_map;
+mod support_tiles;
+mod view;
+
+#[cfg(test)]
+mod tests;
+
+pub use format::PaperUnits;
+pub use page::Sheet;
+pub use paper::{Paper, PaperError};
+
+use crate::drawing::DrawingError;
+use crate::frame::Frame;
+use crate::shop::CutPlan;
+
+/// How the papers look.
+#[derive(Clone, PartialEq, Debug)]
+pub struct SheetSettings {
+    /// Name of the model, on every page.
+    pub model: String,
+    /// What the pages are printed on.
+    pub paper: Paper,
+    /// The unit in which lengths are printed.
+    pub units: PaperUnits,
+    /// Lines printed on the cover, such as the command that repeats the run.
+    pub notes: Vec<String>,
+}
+
+/// Why there are no papers.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum SheetError {
+    /// A page cannot be drawn.
+    #[error(transparent)]
+    Drawing(#[from] DrawingError),
+    /// The paper leaves no room for the pages.
+    #[error(
+        "paper of {width} × {height} mm is too small: the pages need at least {least_width} × {least_height} mm"
+    )]
+    PaperTooSmall {
+        /// Width of the paper, mm.
+        width: f64,
+        /// Height of the paper, mm.
+        height: f64,
+        /// Least width, mm.
+        least_width: f64,
+        /// Least height, mm.
+        least_height: f64,
+    },
+}
+
+/// The pages of the workshop document.
+///
+/// # Errors
+/// [`SheetError::PaperTooSmall`]; [`SheetError::Drawing`] if the frame holds numbers
+/// that are not finite.
+pub fn sheets(
+    frame: &Frame,
+    plan: &CutPlan,
+    settings: &SheetSettings,
+) -> Result<Vec<Sheet>, SheetError> {
+    let settings = settings.checked()?;
+    let mut leaves = cover::cover(frame, plan, &settings)?;
+    leaves.extend(cut_list::cut_list(frame, plan, &settings)?);
+    leaves.extend(rod_cards::rod_cards(frame, &settings)?);
+    leaves.extend(support_tiles::overview(frame, &settings)?);
+    page::stamp(leaves, frame.diameter, &settings)
+}
+
+impl SheetSettings {
+    /// The settings with texts that the font can print, if the paper is large enough.
+    fn checked(&self) -> Result<Self, SheetError> {
+        let [width, height] = self.paper.size();
+        let [least_width, least_height] = page::LEAST_PAPER;
+        // Negated so that sizes that are not numbers are refused as well.
+        if !(width >= least_width && height >= least_height) {
+            return Err(SheetError::PaperTooSmall { width, height, least_width, least_height });
+        }
+        let notes = self.notes.iter().map(|line| page::printable(line)).collect();
+        Ok(Self { model: page::printable(&self.model), notes, ..self.clone() })
+    }
+}

@@ -1,0 +1,269 @@
+//! The map of the feet, seen from above, at full size: to be laid on the ground.
+
+use super::page::{BODY, SMALL, TITLE};
+use super::support_tiles;
+use super::{PaperUnits, Sheet, SheetError, SheetSettings, page};
+use crate::drawing::font::text_width;
+use crate::drawing::{Color, Dash, Draw, Drawing, DrawingError, Item, Placement};
+use crate::drawing::{Point, Rect, Stroke, Text, Weight};
+use crate::frame::Frame;
+use crate::shop::feet::middle;
+use crate::shop::{Foot, feet};
+
+/// Room round the outermost feet for arrows and numbers, mm on paper.
+const AROUND: f64 = 25.0;
+/// Longest side that is drawn at full size, mm; PDF and its readers end at 5080.
+const LONGEST_SIDE: f64 = 4800.0;
+/// Room for the title above the map, mm.
+const ABOVE: f64 = 20.0;
+/// Room for the scale bar below the map, mm.
+const BELOW: f64 = 15.0;
+/// Length of the scale bar, mm on paper.
+const BAR: f64 = 100.0;
+/// How far the cross of a foot sticks out of its circle, mm.
+const CROSS: f64 = 3.0;
+/// Length of the arrow that shows where a rod heads, mm.
+const ARROW: f64 = 12.0;
+/// Half the size of the cross at the model's middle, mm.
+const MIDDLE: f64 = 8.0;
+/// Length of the arrows of the axes at the middle, mm.
+const AXES: f64 = 22.0;
+
+/// Layer of chords between neighbouring feet.
+pub(super) const GUIDES: &str = "guides";
+/// Layer of circles, crosses and arrows.
+pub(super) const FEET: &str = "feet";
+/// Layer of numbers.
+pub(super) const NUMBERS: &str = "numbers";
+const TITLE_LAYER: &str = "title";
+
+/// What is said where nothing stands on the ground.
+pub(super) const NO_FEET: &str = "No rod of this frame stands on the ground, so there is no map \
+    of feet. The frame needs a base of your own: rest or tie its border rods on a ring, a wall \
+    or blocks, or hang it up.";
+
+/// The whole map on one sheet, at full size: circles are as wide as the rods. A
+/// footprint too large for one sheet is drawn at a stated smaller scale.
+///
+/// # Errors
+/// [`SheetError::Drawing`] if the frame holds numbers that are not finite.
+pub fn drawing(frame: &Frame, settings: &SheetSettings) -> Result<Drawing, SheetError> {
+    let settings = settings.checked()?;
+    let map = FootMap::new(frame);
+    let n = map.scale();
+    let extent = map.extent(n);
+    let title = format!("{}: support map", settings.model);
+    let facts =
+        format!("seen from above · scale 1:{n} · rod Ø {}", settings.units.measure(frame.diameter));
+    let words =
+        text_width(&title, TITLE, Weight::Bold)?.max(text_width(&facts, BODY, Weight::Regular)?);
+    let words = if map.feet.is_empty() { words.max(NO_FEET_WIDTH) } else { words };
+    let width = extent.width().max(words + 20.0).max(BAR + 40.0);
+    let mut sheet = Drawing::new(width, extent.height() + ABOVE + BELOW);
+    let place = Placement::at([width / 2.0 - extent.center()[0], ABOVE - extent.min[1]]);
+    sheet.place_drawing(&map.draw(n, &mut Vec::new(), Numbers::All)?, &place);
+    let top = sheet.layer(TITLE_LAYER);
+    top.text([10.0, 10.0], TITLE, title).bold();
+    top.text([10.0, 15.5], BODY, facts);
+    if map.feet.is_empty() {
+        let lines = crate::drawing::font::wrap(NO_FEET, BODY, Weight::Regular, width - 20.0)?;
+        top.text_lines([10.0, 24.0], BODY, BODY * 1.3, Default::default(), lines);
+    }
+    scale_bar(top, [10.0, ABOVE + extent.height() + 4.0], n, settings.units);
+    Ok(sheet)
+}
+
+/// Least width of the sheet where it only says that there are no feet, mm.
+const NO_FEET_WIDTH: f64 = 150.0;
+
+/// The pages of support-map.pdf: an overview with all figures, then the tiles at
+/// full size, to be joined.
+///
+/// # Errors
+/// As [`sheets`](super::sheets).
+pub fn pages(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Sheet>, SheetError> {
+    let settings = settings.checked()?;
+    let mut leaves = support_tiles::overview(frame, &settings)?;
+    leaves.extend(support_tiles::tiles(frame, &settings)?);
+    page::stamp(leaves, frame.diameter, &settings)
+}
+
+/// A bar that is 100 mm long on paper, and what it stands for.
+fn scale_bar(out: &mut impl Draw, [x, y]: Point, n: f64, units: PaperUnits) {
+    let pen = Stroke::new(0.3);
+    out.line([x, y], [x + BAR, y], pen);
+    for end in [x, x + BAR] {
+        out.line([end, y - 2.0], [end, y + 2.0], pen);
+    }
+    out.text([x + BAR + 3.0, y], BODY, units.measure(BAR * n)).vcenter();
+}
+
+/// Which feet get their number printed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Numbers {
+    /// All of them.
+    All,
+    /// Those whose number finds room.
+    WhereFree,
+}
+
+/// The feet and what their map is drawn from.
+pub(super) struct FootMap {
+    pub feet: Vec<Foot>,
+    pub middle: [f64; 2],
+    diameter: f64,
+}
+
+impl FootMap {
+    pub fn new(frame: &Frame) -> Self {
+        let middle = if frame.rods.is_empty() { [0.0; 2] } else { middle(frame) };
+        Self { feet: feet(frame), middle, diameter: frame.diameter }
+    }
+
+    /// n of the scale 1:n at which the map fits one sheet: 1, unless it is too large.
+    pub fn scale(&self) -> f64 {
+        let fits = |n: &f64| self.extent(*n).size().iter().all(|&side| side <= LONGEST_SIDE);
+        [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0].into_iter().find(fits).unwrap_or(1000.0)
+    }
+
+    /// Where a point of the ground lies on paper, mm, y down.
+    pub fn place(&self, x: f64, y: f64, n: f64) -> Point {
+        [x / n, -y / n]
+    }
+
+    /// The part of the paper that the map takes.
+    pub fn extent(&self, n: f64) -> Rect {
+        let feet = self.feet.iter().map(|f| self.place(f.x, f.y, n));
+        let middle = self.place(self.middle[0], self.middle[1], n);
+        let around = Rect::around(feet.chain([middle])).unwrap_or(Rect::new(middle, [0.0; 2]));
+        around.inset(-AROUND)
+    }
+
+    /// The map at 1:n in paper coordinates. `taken` are places that numbers keep clear
+    /// of; those of the numbers are added.
+    pub fn draw(
+        &self,
+        n: f64,
+        taken: &mut Vec<Rect>,
+        numbers: Numbers,
+    ) -> Result<Drawing, DrawingError> {
+        let mut map = Drawing::new(1.0, 1.0);
+        let at = |f: &Foot| self.place(f.x, f.y, n);
+        let chord = Stroke::new(0.15).color(Color::GREY).dash(Dash::DASH_DOT);
+        let guides = map.layer(GUIDES);
+        for (i, foot) in self.feet.iter().enumerate() {
+            // With two feet both chords are the same.
+            if let Some(next) = foot.next.filter(|next| self.feet.len() > 2 || next.index > i) {
+                guides.line(at(foot), at(&self.feet[next.index]), chord);
+            }
+        }
+        let radius = self.diameter / 2.0 / n;
+        let small = n > 1.0;
+        let feet = map.layer(FEET);
+        for foot in &self.feet {
+            draw_foot(feet, foot, at(foot), radius, small);
+            taken.push(Rect::new(at(foot), [0.0; 2]).inset(-radius.max(1.0)));
+            taken.push(arrow_box(foot, at(foot), radius, small));
+        }
+        if !self.feet.is_empty() {
+            self.draw_middle(&mut map, n, taken)?;
+        }
+        for foot in &self.feet {
+            let size = if small { SMALL } else { BODY };
+            if let Some(text) = number(foot, at(foot), radius, size, taken, numbers)? {
+                taken.push(text.extent()?);
+                map.layer(NUMBERS).push(text);
+            }
+        }
+        Ok(map)
+    }
+
+    /// A cross at the model's middle, with the headings 0° and 90°.
+    fn draw_middle(
+        &self,
+        map: &mut Drawing,
+        n: f64,
+        taken: &mut Vec<Rect>,
+    ) -> Result<(), DrawingError> {
+        let [x, y] = self.place(self.middle[0], self.middle[1], n);
+        let length = if n > 1.0 { AXES / 2.0 } else { AXES };
+        let cross = if n > 1.0 { MIDDLE / 2.0 } else { MIDDLE };
+        let pen = Stroke::new(0.25);
+        let feet = map.layer(FEET);
+        feet.line([x - cross, y], [x + cross, y], pen);
+        feet.line([x, y - cross], [x, y + cross], pen);
+        feet.circle([x, y], cross / 4.0, pen);
+        feet.arrow([x, y], [x + length, y], 2.5, pen);
+        feet.arrow([x, y], [x, y - length], 2.5, pen);
+        taken.push(Rect::new([x, y - length], [length, length]).inset(-1.0));
+        let texts = map.layer(NUMBERS);
+        let zero = texts.text([x + length + 1.0, y], SMALL, "0° (x)").vcenter().clone();
+        let quarter = texts.text([x, y - length - 1.5], SMALL, "90° (y)").middle().clone();
+        let name = texts.text([x, y + cross + SMALL + 0.8], SMALL, "middle").middle().clone();
+        for text in [zero, quarter, name] {
+            taken.push(text.extent()?);
+        }
+        Ok(())
+    }
+}
+
+/// Circle, centre cross and arrow of a foot.
+fn draw_foot(out: &mut impl Draw, foot: &Foot, [x, y]: Point, radius: f64, small: bool) {
+    let pen = Stroke::new(0.2);
+    out.circle([x, y], radius, Stroke::new(0.25));
+    let reach = radius + if small { 1.0 } else { CROSS };
+    out.line([x - reach, y], [x + reach, y], pen);
+    out.line([x, y - reach], [x, y + reach], pen);
+    let (from, to) = arrow(foot, [x, y], radius, small);
+    out.arrow(from, to, if small { 1.6 } else { 2.6 }, Stroke::new(0.3));
+}
+
+/// From the circle on, the way the rod heads; y down.
+fn arrow(foot: &Foot, [x, y]: Point, radius: f64, small: bool) -> (Point, Point) {
+    let (sin, cos) = foot.azimuth.sin_cos();
+    let length = if small { ARROW / 2.0 } else { ARROW };
+    let at = |d: f64| [x + cos * d, y - sin * d];
+    (at(radius), at(radius + length))
+}
+
+fn arrow_box(foot: &Foot, at: Point, radius: f64, small: bool) -> Rect {
+    let (a, b) = arrow(foot, at, radius, small);
+    Rect::around([a, b]).unwrap_or(Rect::new(at, [0.0; 2])).inset(-0.5)
+}
+
+/// How far round a number may stand from where it should, in eighths of a turn.
+const TURNS: [f64; 8] = [0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0, 4.0];
+/// How far out a number may be pushed, mm.
+const STEPS: [f64; 4] = [0.0, 5.0, 10.0, 15.0];
+
+/// The number of a foot beside its circle: behind the rod if there is room.
+fn number(
+    foot: &Foot,
+    [x, y]: Point,
+    radius: f64,
+    size: f64,
+    taken: &[Rect],
+    numbers: Numbers,
+) -> Result<Option<Text>, DrawingError> {
+    let mut first = None;
+    for step in STEPS {
+        for turn in TURNS {
+            let angle = foot.azimuth + std::f64::consts::PI * (1.0 + turn / 4.0);
+            let (sin, cos) = angle.sin_cos();
+            let mut items: Vec<Item> = Vec::new();
+            let text = items.text([0.0, 0.0], size, foot.rod.to_string()).middle().vcenter();
+            let half = text.extent()?.size().map(|s| s / 2.0);
+            let reach = radius + 1.5 + step + cos.abs() * half[0] + sin.abs() * half[1];
+            text.at = [text.at[0] + x + cos * reach, text.at[1] + y - sin * reach];
+            let extent = text.extent()?;
+            if !taken.iter().any(|t| t.overlaps(&extent)) {
+                return Ok(Some(text.clone()));
+            }
+            first.get_or_insert(text.clone());
+        }
+        if numbers == Numbers::WhereFree {
+            return Ok(None);
+        }
+    }
+    Ok(first)
+}

@@ -1,0 +1,302 @@
+//! The map of the feet on pages: an overview with all figures, and tiles at full size.
+//!
+//! Tiles overlap. Every tile has crop marks in the middle of its overlaps, so that the
+//! marks of two neighbours lie on the same points of the ground: cut along them, or
+//! lay them on each other.
+
+use super::format::{angle, heading};
+use super::page::{BODY, Column, Flow, Leaf, SMALL, THIN, Table};
+use super::support_map::{FEET, FootMap, NO_FEET, NUMBERS, Numbers};
+use super::{SheetError, SheetSettings, page};
+use crate::drawing::{Color, Draw, Drawing, DrawingError, Item, Placement, Point, Rect, Stroke};
+use crate::drawing::{Text, clip};
+use crate::frame::{End, Frame};
+
+/// How far neighbouring tiles overlap, mm.
+const OVERLAP: f64 = 10.0;
+/// Room above a tile for its name, mm.
+const NAME: f64 = 7.0;
+/// Half the size of a crop mark, mm.
+const CROP: f64 = 4.0;
+/// More tiles than this are not printed: nobody joins so many.
+const MOST_TILES: usize = 150;
+/// Largest part of a page that the map of the tiles takes.
+const OVERVIEW_SHARE: f64 = 0.5;
+
+/// The overview page (and more, if the table is long).
+pub(super) fn overview(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Leaf>, SheetError> {
+    let mut flow = Flow::new(settings, "support-map", "Support map: overview");
+    let map = FootMap::new(frame);
+    if map.feet.is_empty() {
+        flow.paragraph(NO_FEET)?;
+        return Ok(flow.finish(None));
+    }
+    let tiling = Tiling::new(&map, settings);
+    let room = Rect {
+        min: [flow.area().min[0], flow.y],
+        max: [flow.area().max[0], flow.y + flow.room() * OVERVIEW_SHARE],
+    };
+    let height = small_map(flow.page(), &map, tiling.as_ref(), room)?;
+    flow.skip(height + 4.0);
+    flow.paragraph(&explained(&map, tiling.as_ref(), settings))?;
+    flow.table(&table(&map, settings))?;
+    Ok(flow.finish(None))
+}
+
+/// The tiles at full size, row by row; none if the map is too large for that.
+pub(super) fn tiles(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Leaf>, SheetError> {
+    let map = FootMap::new(frame);
+    let Some(tiling) = Tiling::new(&map, settings) else { return Ok(Vec::new()) };
+    let full = map.draw(1.0, &mut Vec::new(), Numbers::All)?;
+    let mut leaves = Vec::new();
+    for tile in tiling.used(&full) {
+        leaves.push(tiling.leaf(tile, &full, settings)?);
+    }
+    Ok(leaves)
+}
+
+fn explained(map: &FootMap, tiling: Option<&Tiling>, settings: &SheetSettings) -> String {
+    let units = settings.units;
+    let [x, y] = map.middle.map(|c| units.length(c));
+    let tiles = match tiling {
+        Some(_) => "Join the tiles of the 1:1 map so that their crop marks meet.",
+        None => "The map is too large for tiles at full size: measure the feet out by the table.",
+    };
+    format!(
+        "{tiles} Arrows show where each rod heads. The middle of the model is at x {x}, y {y}. \
+         Radius and bearing are measured from the middle; bearings and headings run \
+         counter-clockwise from the x axis. The bevel is sawn off a square end so that the rod \
+         stands flat; chord is the straight distance to the next foot round."
+    )
+}
+
+fn table(map: &FootMap, settings: &SheetSettings) -> Table {
+    let units = settings.units;
+    let row = |f: &crate::shop::Foot| {
+        let (next, chord) = match f.next {
+            Some(next) => (next.rod.to_string(), units.length(next.chord)),
+            None => (String::new(), String::new()),
+        };
+        vec![
+            f.rod.to_string(),
+            match f.end {
+                End::A => "A".to_owned(),
+                End::B => "B".to_owned(),
+            },
+            units.length(f.x),
+            units.length(f.y),
+            units.length(f.radius),
+            heading(f.bearing),
+            angle(f.elevation),
+            heading(f.azimuth),
+            angle(f.bevel),
+            next,
+            chord,
+        ]
+    };
+    let columns = vec![
+        Column::text("foot"),
+        Column::text("end"),
+        Column::figure("x"),
+        Column::figure("y"),
+        Column::figure("radius"),
+        Column::figure("bearing"),
+        Column::figure("elevation"),
+        Column::figure("heading"),
+        Column::figure("bevel"),
+        Column::text("next"),
+        Column::figure("chord"),
+    ];
+    Table { columns, rows: map.feet.iter().map(row).collect() }
+}
+
+/// The whole map in `room`, with the tiles; returns the height it takes.
+fn small_map(
+    out: &mut Drawing,
+    map: &FootMap,
+    tiling: Option<&Tiling>,
+    room: Rect,
+) -> Result<f64, DrawingError> {
+    let full = tiling.map_or_else(|| map.extent(1.0), Tiling::extent);
+    let n = (0..2).map(|i| full.size()[i] / room.size()[i]).fold(1.0, f64::max);
+    let on_paper = Rect { min: full.min.map(|c| c / n), max: full.max.map(|c| c / n) };
+    let height = on_paper.height();
+    let offset = [room.center()[0] - on_paper.center()[0], room.min[1] - on_paper.min[1]];
+    let place = Placement::at(offset);
+    let mut items: Vec<Item> = Vec::new();
+    let mut taken = Vec::new();
+    if let Some(tiling) = tiling {
+        let used = tiling.used(&map.draw(1.0, &mut Vec::new(), Numbers::All)?);
+        tiling.draw_grid(&mut items, n, &used, &mut taken)?;
+    }
+    out.place(&items, &place);
+    // Always in small letters and arrows, even if the scale is 1:1.
+    let small = map.draw(n.max(1.0 + f64::EPSILON), &mut taken, Numbers::WhereFree)?;
+    for layer in &small.layers {
+        out.place(&layer.items, &place);
+    }
+    Ok(height)
+}
+
+/// Column and row of a tile, from 0.
+type Place = [usize; 2];
+
+/// Tiles over the map.
+struct Tiling {
+    /// Top left corner of tile A1 on the map, mm.
+    origin: Point,
+    /// Width and height of a tile, mm.
+    size: [f64; 2],
+    /// Columns and rows.
+    count: Place,
+}
+
+impl Tiling {
+    /// Tiles that cover the map, which lies in their middle; none if it has no feet,
+    /// or is too large.
+    fn new(map: &FootMap, settings: &SheetSettings) -> Option<Self> {
+        if map.feet.is_empty() || map.scale() > 1.0 {
+            return None;
+        }
+        let (extent, size) = (map.extent(1.0), tile_area(settings).size());
+        let count = [0, 1].map(|i| {
+            let more = (extent.size()[i] - OVERLAP) / (size[i] - OVERLAP);
+            more.ceil().max(1.0) as usize
+        });
+        let origin = [0, 1].map(|i| {
+            let span = count[i] as f64 * (size[i] - OVERLAP) + OVERLAP;
+            extent.center()[i] - span / 2.0
+        });
+        let tiling = Self { origin, size, count };
+        // Blank tiles do not count: there are at most four tiles to a foot.
+        (count[0] * count[1] <= MOST_TILES || map.feet.len() * 4 <= MOST_TILES).then_some(tiling)
+    }
+
+    /// The part of the map on a tile.
+    fn rect(&self, place: Place) -> Rect {
+        let at = |i: usize| self.origin[i] + place[i] as f64 * (self.size[i] - OVERLAP);
+        Rect::new([at(0), at(1)], self.size)
+    }
+
+    /// All tiles together.
+    fn extent(&self) -> Rect {
+        self.rect([0, 0]).union(&self.rect(self.count.map(|c| c - 1)))
+    }
+
+    /// The tiles with anything but guides on them, row by row.
+    fn used(&self, map: &Drawing) -> Vec<Place> {
+        let feet = || map.layers.iter().filter(|l| l.name == FEET);
+        let holds =
+            |place: &Place| feet().any(|layer| !clip(&layer.items, self.rect(*place)).is_empty());
+        let all = (0..self.count[1]).flat_map(|row| (0..self.count[0]).map(move |c| [c, row]));
+        all.filter(holds).collect()
+    }
+
+    fn leaf(
+        &self,
+        tile: Place,
+        map: &Drawing,
+        settings: &SheetSettings,
+    ) -> Result<Leaf, DrawingError> {
+        let (rect, area) = (self.rect(tile), tile_area(settings));
+        let [width, height] = settings.paper.size();
+        let mut drawing = Drawing::new(width, height);
+        let place = Placement::at([area.min[0] - rect.min[0], area.min[1] - rect.min[1]]);
+        for layer in &map.layers {
+            let mut items = clip(&layer.items, rect);
+            if layer.name == NUMBERS {
+                items = whole_texts(&layer.items, rect)?;
+            }
+            drawing.place(&items, &place);
+        }
+        drawing.rect(area.min, area.size(), Stroke::new(0.1).color(Color::GREY));
+        let marks = area.inset(OVERLAP / 2.0);
+        for [x, y] in corners(&marks) {
+            drawing.line([x - CROP, y], [x + CROP, y], THIN);
+            drawing.line([x, y - CROP], [x, y + CROP], THIN);
+        }
+        let base = area.min[1] - 2.2;
+        drawing.text([area.min[0], base], 5.0, format!("tile {}", name(tile))).bold();
+        drawing.text([area.max[0], base], SMALL, self.neighbors(tile)).end();
+        let title = format!("Support map: tile {}", name(tile));
+        let stem = format!("support-map-{}", name(tile).to_lowercase());
+        Ok(Leaf { stem, title, scale: Some("1:1".to_owned()), drawing })
+    }
+
+    /// Which tiles lie around.
+    fn neighbors(&self, [c, r]: Place) -> String {
+        let mut parts = Vec::new();
+        if r > 0 {
+            parts.push(format!("above {}", name([c, r - 1])));
+        }
+        if r + 1 < self.count[1] {
+            parts.push(format!("below {}", name([c, r + 1])));
+        }
+        if c > 0 {
+            parts.push(format!("left {}", name([c - 1, r])));
+        }
+        if c + 1 < self.count[0] {
+            parts.push(format!("right {}", name([c + 1, r])));
+        }
+        parts.join(" · ")
+    }
+
+    /// The tiles at 1:n: blank ones grey, the others with their names.
+    fn draw_grid(
+        &self,
+        out: &mut impl Draw,
+        n: f64,
+        used: &[Place],
+        taken: &mut Vec<Rect>,
+    ) -> Result<(), DrawingError> {
+        let pen = Stroke::new(0.15).color(Color::GREY);
+        for row in 0..self.count[1] {
+            for column in 0..self.count[0] {
+                // To the middle of the overlaps, where tiles meet.
+                let rect = self.rect([column, row]).inset(OVERLAP / 2.0);
+                let (min, size) = (rect.min.map(|c| c / n), rect.size().map(|c| c / n));
+                if used.contains(&[column, row]) {
+                    out.rect(min, size, pen);
+                    let at = [min[0] + 1.2, min[1] + BODY + 0.6];
+                    let text = out.text(at, BODY, name([column, row])).bold().clone();
+                    taken.push(text.extent()?);
+                } else {
+                    out.rect(min, size, pen.fill(Color::PALE_GREY));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The part of a page that shows the map.
+fn tile_area(settings: &SheetSettings) -> Rect {
+    let area = page::area(settings);
+    Rect { min: [area.min[0], area.min[1] + NAME], ..area }
+}
+
+/// `A1`: column letter, row number.
+fn name([column, row]: Place) -> String {
+    format!("{}{}", crate::shop::letters(column, 'A'), row + 1)
+}
+
+fn corners(r: &Rect) -> [Point; 4] {
+    [r.min, [r.max[0], r.min[1]], r.max, [r.min[0], r.max[1]]]
+}
+
+/// The texts of which at least a half is inside, moved so that all of each is.
+fn whole_texts(items: &[Item], rect: Rect) -> Result<Vec<Item>, DrawingError> {
+    let mut kept = Vec::new();
+    for item in items {
+        let Item::Text(text) = item else { continue };
+        let extent = text.extent()?;
+        if rect.contains(extent.center()) {
+            let shift = [0, 1].map(|i| {
+                (rect.min[i] - extent.min[i]).max(0.0) + (rect.max[i] - extent.max[i]).min(0.0)
+            });
+            let at = [text.at[0] + shift[0], text.at[1] + shift[1]];
+            kept.push(Text { at, ..text.clone() }.into());
+        }
+    }
+    Ok(kept)
+}

@@ -1,0 +1,281 @@
+//! Every page, on a made frame and on real ones.
+
+use super::rod_cards::Book;
+use super::*;
+use crate::drawing::pdf::{DocumentInfo, render};
+use crate::drawing::{Drawing, Figure, Item, Rect, Shape, Text};
+use crate::ids::{Id, RodId};
+use crate::shop::lengths::cut_lengths;
+use crate::shop::{Stock, cutlist, feet, fixture, marks};
+use std::sync::LazyLock;
+
+static IGLOO: LazyLock<Frame> = LazyLock::new(|| fixture::on_sample("igloo", "4.4.4.4"));
+
+fn settings(paper: Paper, units: PaperUnits) -> SheetSettings {
+    let notes = vec!["rodwright build igloo.obj --rod 3mm".to_owned()];
+    SheetSettings { model: "igloo".to_owned(), paper, units, notes }
+}
+
+fn cut_plan(frame: &Frame) -> CutPlan {
+    let stock = Stock { lengths: vec![1000.0], kerf: 1.0 };
+    cutlist::plan(&cut_lengths(frame), &stock).unwrap()
+}
+
+fn pages_of(frame: &Frame, paper: Paper, units: PaperUnits) -> Vec<Sheet> {
+    let settings = settings(paper, units);
+    let mut all = sheets(frame, &cut_plan(frame), &settings).unwrap();
+    all.extend(support_map::pages(frame, &settings).unwrap());
+    all
+}
+
+fn texts(drawing: &Drawing) -> impl Iterator<Item = &Text> {
+    drawing.items().filter_map(|item| match item {
+        Item::Text(text) => Some(text),
+        Item::Figure(_) => None,
+    })
+}
+
+/// Texts nearer to the paper's edge than the margin, or over one another.
+fn faults(sheet: &Sheet) -> Vec<String> {
+    let drawing = &sheet.page.drawing;
+    let inside = drawing.frame().inset(page::MARGIN - 0.01);
+    let boxes: Vec<(&Text, Rect)> = texts(drawing)
+        .map(|t| {
+            let extent = t.extent().unwrap();
+            // Letters that reach below the line are few; lines may be that close.
+            (t, Rect { max: [extent.max[0], extent.max[1] - 0.1 * t.size], ..extent })
+        })
+        .collect();
+    let mut faults = Vec::new();
+    for (i, (text, extent)) in boxes.iter().enumerate() {
+        if !inside.contains_rect(extent) {
+            faults.push(format!("{}: {:?} leaves the page", sheet.stem, text.string));
+        }
+        if text.size < page::SMALLEST - 1e-9 {
+            faults.push(format!("{}: {:?} is too small", sheet.stem, text.string));
+        }
+        for (other, rect) in &boxes[..i] {
+            if rect.overlaps(extent) {
+                let [a, b] = [&text.string, &other.string];
+                faults.push(format!("{}: {a:?} lies on {b:?} at {:?}", sheet.stem, text.at));
+            }
+        }
+    }
+    faults
+}
+
+#[test]
+fn texts_stay_on_the_page_and_apart() {
+    let circuit = fixture::circuit(5, 8.0);
+    let small = Paper::Custom { width: 145.0, height: 200.0 };
+    for frame in [&*IGLOO, &circuit] {
+        for (paper, units) in [
+            (Paper::A4, PaperUnits::Mm),
+            (Paper::Letter, PaperUnits::Inch),
+            (small, PaperUnits::Mm),
+        ] {
+            let pages = pages_of(frame, paper, units);
+            let found: Vec<String> = pages.iter().flat_map(faults).collect();
+            assert!(found.is_empty(), "{paper}: {} faults: {found:#?}", found.len());
+        }
+    }
+}
+
+#[test]
+fn every_rod_is_on_exactly_one_card() {
+    let pages = pages_of(&IGLOO, Paper::A4, PaperUnits::Mm);
+    let mut numbers: Vec<&str> = pages
+        .iter()
+        .filter(|s| s.stem.contains("rod-cards"))
+        .flat_map(|s| texts(&s.page.drawing))
+        .filter(|t| t.size > 7.0)
+        .map(|t| t.string.as_str())
+        .collect();
+    numbers.sort_by_key(|n| (n.len(), *n));
+    let rods: Vec<String> = IGLOO.rods.ids().map(|r| r.to_string()).collect();
+    assert_eq!(numbers, rods);
+}
+
+/// Places of upright lines of a stroke's width, from left to right.
+fn upright_lines(items: &[Item], width: f64) -> Vec<f64> {
+    let mut found: Vec<f64> = items
+        .iter()
+        .filter_map(|item| match item {
+            Item::Figure(Figure { shape: Shape::Line(a, b), paint }) => {
+                let is_tick = a[0] == b[0] && paint.stroke.is_some_and(|s| s.width == width);
+                is_tick.then_some(a[0])
+            }
+            _ => None,
+        })
+        .collect();
+    found.sort_by(f64::total_cmp);
+    found
+}
+
+#[test]
+fn ticks_of_a_strip_are_as_far_apart_as_the_marks() {
+    for frame in [&*IGLOO, &fixture::circuit(4, 3.0)] {
+        let book = Book::new(frame, PaperUnits::Mm, 190.0);
+        for rod in frame.rods.ids() {
+            let items = book.card(rod).unwrap().items;
+            let ticks = upright_lines(&items, legend::OVER_TICK.width);
+            let at: Vec<f64> = marks(frame, rod).iter().map(|m| m.at).collect();
+            assert_eq!(ticks.len(), at.len());
+            let start = items.iter().find_map(|i| match i {
+                Item::Figure(Figure { shape: Shape::Area(rings), .. }) => Some(rings[0][0][0]),
+                _ => None,
+            });
+            for (tick, at) in ticks.iter().zip(&at) {
+                assert!((tick - start.unwrap() - at).abs() < 1e-9, "{rod}: {tick} {at}");
+            }
+        }
+    }
+}
+
+#[test]
+fn long_rods_are_broken_but_keep_short_stretches() {
+    let mut frame = fixture::circuit(4, 3.0);
+    let rod = RodId::new(0);
+    frame.rods[rod].axis = frame.rods[rod].axis.between(0.0, 400.0);
+    let marks = marks(&frame, rod);
+    let strip = strip::Strip::new(400.0, 3.0, &marks, 190.0);
+    assert!(strip.is_broken());
+    assert!((strip.drawn_length() - (190.0 - 24.0)).abs() < 1e-9);
+    let card = Book::new(&frame, PaperUnits::Mm, 190.0).card(rod).unwrap();
+    let ticks = upright_lines(&card.items, legend::OVER_TICK.width);
+    assert!((ticks[1] - ticks[0] - (marks[1].at - marks[0].at)).abs() < 1e-9);
+    let says = |part: &str| {
+        let has = |i: &Item| matches!(i, Item::Text(t) if t.string.contains(part));
+        card.items.iter().any(has)
+    };
+    assert!(says("strip broken") && says("‹"));
+}
+
+#[test]
+fn circles_of_the_support_map_are_where_the_feet_are() {
+    for frame in [&*IGLOO, &fixture::circuit(6, 5.0)] {
+        let map = support_map::drawing(frame, &settings(Paper::A4, PaperUnits::Mm)).unwrap();
+        let circles: Vec<[f64; 2]> = map
+            .items()
+            .filter_map(|i| match i {
+                Item::Figure(Figure { shape: Shape::Circle { center, radius }, .. }) => {
+                    (*radius == frame.diameter / 2.0).then_some(*center)
+                }
+                _ => None,
+            })
+            .collect();
+        let feet = feet(frame);
+        assert_eq!(circles.len(), feet.len());
+        assert!(!feet.is_empty());
+        for (c, foot) in circles.iter().zip(&feet) {
+            assert!(map.frame().contains(*c));
+            let from_first = [c[0] - circles[0][0], circles[0][1] - c[1]];
+            assert!((from_first[0] - (foot.x - feet[0].x)).abs() < 1e-9);
+            assert!((from_first[1] - (foot.y - feet[0].y)).abs() < 1e-9);
+        }
+    }
+}
+
+/// Each foot is whole on some tile, and tiles agree on where it is.
+#[test]
+fn every_foot_is_on_a_tile_at_full_size() {
+    let settings = settings(Paper::A4, PaperUnits::Mm);
+    let pages = support_map::pages(&IGLOO, &settings).unwrap();
+    let tiles = pages.iter().filter(|s| {
+        s.stem.contains("support-map-")
+            && s.page.title.as_ref().is_some_and(|t| t.contains("tile "))
+    });
+    let whole: usize = tiles
+        .map(|s| {
+            let circle = |i: &&Item| matches!(i, Item::Figure(Figure { shape: Shape::Circle { radius, .. }, .. }) if *radius == 1.5);
+            s.page.drawing.items().filter(circle).count()
+        })
+        .sum();
+    assert!(whole >= IGLOO.supports.len());
+}
+
+#[test]
+fn a_frame_without_feet_says_so() {
+    let mut frame = fixture::circuit(5, 3.0);
+    frame.supports.clear();
+    let settings = settings(Paper::A4, PaperUnits::Mm);
+    let pages = support_map::pages(&frame, &settings).unwrap();
+    assert_eq!(pages.len(), 1);
+    assert!(texts(&pages[0].page.drawing).any(|t| t.string.contains("No rod of this frame")));
+    let map = support_map::drawing(&frame, &settings).unwrap();
+    assert!(texts(&map).any(|t| t.string.contains("No rod of this frame")));
+    assert!(map.items().all(|i| match i {
+        Item::Text(t) => map.frame().contains_rect(&t.extent().unwrap()),
+        Item::Figure(_) => true,
+    }));
+}
+
+#[test]
+fn a_huge_footprint_is_drawn_smaller_and_says_so() {
+    let mut frame = fixture::circuit(5, 3.0);
+    for rod in frame.rods.ids() {
+        let axis = &mut frame.rods[rod].axis;
+        axis.a = (axis.a.coords * 60.0).into();
+    }
+    for support in &mut frame.supports {
+        support.point = frame.rods[support.rod].axis.a;
+    }
+    let settings = settings(Paper::A4, PaperUnits::Mm);
+    let map = support_map::drawing(&frame, &settings).unwrap();
+    assert!(map.width < 5000.0);
+    assert!(texts(&map).any(|t| t.string.contains("scale 1:5")));
+    assert!(crate::drawing::svg::render(&map).is_ok());
+    assert_eq!(support_map::pages(&frame, &settings).unwrap().len(), 1);
+}
+
+#[test]
+fn pages_are_named_in_order_and_render() {
+    let frame = fixture::circuit(4, 3.0);
+    let settings =
+        SheetSettings { model: "家 igloo\n".to_owned(), ..settings(Paper::A4, PaperUnits::Mm) };
+    let pages = sheets(&frame, &cut_plan(&frame), &settings).unwrap();
+    let stems: Vec<&str> = pages.iter().map(|s| s.stem.as_str()).collect();
+    assert_eq!(stems, ["01-cover", "02-cut-list", "03-rod-cards", "04-support-map"]);
+    let pages: Vec<_> = pages.into_iter().map(|s| s.page).collect();
+    assert!(render(&pages, &DocumentInfo::default()).is_ok());
+    assert!(texts(&pages[1].drawing).any(|t| t.string == "? igloo "));
+    assert!(texts(&pages[1].drawing).any(|t| t.string == "page 2/4"));
+}
+
+#[test]
+fn paper_without_room_is_refused() {
+    let frame = fixture::circuit(4, 3.0);
+    for size in [[100.0, 300.0], [200.0, f64::NAN]] {
+        let [width, height] = size;
+        let settings = settings(Paper::Custom { width, height }, PaperUnits::Mm);
+        let error = sheets(&frame, &cut_plan(&frame), &settings).unwrap_err();
+        assert!(error.to_string().contains("too small"), "{error}");
+    }
+}
+
+/// Writes the pages of the samples to `target/sheets` to be looked at.
+#[test]
+#[ignore = "writes files to be looked at"]
+fn write_samples() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("target/sheets");
+    std::fs::create_dir_all(&folder).unwrap();
+    let station = fixture::on_sample("train-station", "3.6.3.6");
+    for (name, frame, paper, units) in [
+        ("igloo-a4", &*IGLOO, Paper::A4, PaperUnits::Mm),
+        ("igloo-letter", &*IGLOO, Paper::Letter, PaperUnits::Inch),
+        ("station-a4", &station, Paper::A4, PaperUnits::Mm),
+        (
+            "circuit-a5",
+            &fixture::circuit(5, 12.0),
+            Paper::Custom { width: 148.0, height: 210.0 },
+            PaperUnits::Mm,
+        ),
+    ] {
+        let pages: Vec<_> = pages_of(frame, paper, units).into_iter().map(|s| s.page).collect();
+        let bytes = render(&pages, &DocumentInfo::default()).unwrap();
+        std::fs::write(folder.join(format!("{name}.pdf")), bytes).unwrap();
+        let map = support_map::drawing(frame, &settings(paper, units)).unwrap();
+        let svg = crate::drawing::svg::render(&map).unwrap();
+        std::fs::write(folder.join(format!("{name}-map.svg")), svg).unwrap();
+    }
+}

@@ -1,0 +1,240 @@
+//! Pictures of a frame: rods as thick lines, far ones first, each with a white edge
+//! so that one sees which rod is over.
+//!
+//! Rods are cut into pieces, one about every contact and the rest between. A piece
+//! about a contact is as far away as the contact itself, so two rods that touch are
+//! drawn in their true order, however steep they are. The other pieces go by their
+//! middles, which is right unless long pieces pass each other closely.
+
+use crate::drawing::{Cap, Color, Draw, Point, Rect, Stroke};
+use crate::frame::Frame;
+use crate::ids::RodId;
+use crate::surface::{Point3, Vector3};
+
+/// Half the length of a piece about a contact, in diameters: enough for the crossing
+/// rod and its white edges down to crossings of some 25°.
+const CONTACT_PIECE: f64 = 3.0;
+/// Longest piece between contacts, in diameters.
+const FREE_PIECE: f64 = 15.0;
+/// Frames of more rods are not cut further between contacts: the picture is too fine
+/// for it to show, and the file would grow.
+const MANY_RODS: usize = 1500;
+/// Thinnest line of a rod, mm.
+const THINNEST: f64 = 0.3;
+/// Rods thicker than this on paper are drawn with an outline, mm.
+const OUTLINED: f64 = 1.2;
+/// How light the farthest rods are, 0 black to 255 white.
+const FARTHEST: f64 = 150.0;
+/// Scales that read well, and ten times, a hundred times … as small.
+const ROUND_SCALES: [f64; 10] = [1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
+
+/// Where a frame is looked at from.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct View {
+    right: Vector3,
+    up: Vector3,
+    /// From the frame to the eye.
+    toward: Vector3,
+    /// Whether far rods are drawn lighter.
+    fading: bool,
+}
+
+impl View {
+    /// From above; x to the right, y up.
+    pub fn plan() -> Self {
+        Self { right: Vector3::x(), up: Vector3::y(), toward: Vector3::z(), fading: false }
+    }
+
+    /// With all three axes equally short; x to the right and forward.
+    pub fn isometric() -> Self {
+        let toward = Vector3::new(1.0, -1.0, 1.0).normalize();
+        let right = Vector3::new(1.0, 1.0, 0.0).normalize();
+        Self { right, up: toward.cross(&right), toward, fading: true }
+    }
+
+    /// Where a point appears, mm, y down.
+    pub fn project(&self, p: &Point3) -> Point {
+        [p.coords.dot(&self.right), -p.coords.dot(&self.up)]
+    }
+
+    fn depth(&self, p: &Point3) -> f64 {
+        p.coords.dot(&self.toward)
+    }
+
+    /// The extent of the frame in this view, mm.
+    fn extent(&self, frame: &Frame) -> Rect {
+        let ends = frame.rods.iter().flat_map(|r| [r.axis.a, r.axis.b]);
+        let bounds = Rect::around(ends.map(|p| self.project(&p)));
+        bounds.unwrap_or(Rect::new([0.0, 0.0], [1.0, 1.0])).inset(-frame.diameter / 2.0)
+    }
+
+    /// Draws the frame into `room` at the largest round scale that fits, and returns
+    /// n of that scale 1:n.
+    pub fn draw(&self, frame: &Frame, room: Rect, out: &mut impl Draw) -> f64 {
+        let extent = self.extent(frame);
+        let ratio = (0..2).map(|i| extent.size()[i] / room.size()[i]).fold(0.0, f64::max);
+        let n = round_scale(ratio);
+        let (from, to) = (extent.center(), room.center());
+        let place = |p: Point| [to[0] + (p[0] - from[0]) / n, to[1] + (p[1] - from[1]) / n];
+        let width = (frame.diameter / n).max(THINNEST);
+
+        let mut pieces: Vec<Piece> =
+            frame.rods.ids().flat_map(|rod| self.pieces(frame, rod)).collect();
+        // Far ones first; ties by rod and place, as they come.
+        pieces.sort_by(|a, b| a.depth.total_cmp(&b.depth));
+        let depths = (pieces.first().map(|p| p.depth), pieces.last().map(|p| p.depth));
+        for piece in &pieces {
+            let near = match depths {
+                (Some(far), Some(near)) if self.fading && near > far => {
+                    (piece.depth - far) / (near - far)
+                }
+                _ => 1.0,
+            };
+            let level = (FARTHEST * (1.0 - near)).round() as u8;
+            let line = piece.ends.map(|p| place(self.project(&p)));
+            rod_piece(out, line, width, Color::grey(level));
+        }
+        n
+    }
+
+    fn pieces(&self, frame: &Frame, rod: RodId) -> Vec<Piece> {
+        let r = &frame.rods[rod];
+        let length = r.axis.length();
+        let mut at: Vec<f64> = r.contacts.iter().map(|&c| frame.seen_from(c, rod).at).collect();
+        at.sort_by(f64::total_cmp);
+        let longest = match frame.rods.len() {
+            0..=MANY_RODS => FREE_PIECE * frame.diameter,
+            _ => f64::INFINITY,
+        };
+        let mut pieces = Vec::new();
+        let mut done = 0.0;
+        for (i, &s) in at.iter().enumerate() {
+            let next = at.get(i + 1).map_or(length, |n| (s + n) / 2.0);
+            let reach = CONTACT_PIECE * frame.diameter;
+            let (from, to) = ((s - reach).max(done), (s + reach).min(next));
+            self.free(frame, rod, [done, from], longest, &mut pieces);
+            let ends = [r.axis.at(from), r.axis.at(to)];
+            pieces.push(Piece { ends, depth: self.depth(&r.axis.at(s)) });
+            done = to;
+        }
+        self.free(frame, rod, [done, length], longest, &mut pieces);
+        pieces
+    }
+
+    /// Pieces of a stretch of rod without contacts, none longer than `longest`.
+    fn free(
+        &self,
+        frame: &Frame,
+        rod: RodId,
+        [from, to]: [f64; 2],
+        longest: f64,
+        out: &mut Vec<Piece>,
+    ) {
+        let axis = &frame.rods[rod].axis;
+        let count = ((to - from) / longest).ceil().max(0.0) as usize;
+        let count = if to > from { count.max(1) } else { 0 };
+        let at = |k: usize| from + (to - from) * k as f64 / count as f64;
+        for k in 0..count {
+            let ends = [axis.at(at(k)), axis.at(at(k + 1))];
+            out.push(Piece { ends, depth: self.depth(&nalgebra::center(&ends[0], &ends[1])) });
+        }
+    }
+}
+
+/// A part of a rod and how near it is.
+struct Piece {
+    ends: [Point3; 2],
+    depth: f64,
+}
+
+fn rod_piece(out: &mut impl Draw, [a, b]: [Point; 2], width: f64, color: Color) {
+    let edge = (width * 0.4).clamp(0.25, 0.8);
+    out.line(a, b, Stroke::new(width + 2.0 * edge).color(Color::WHITE));
+    // Ends that stick out a little close the joints between pieces.
+    let line = Stroke::new(width).color(color).cap(Cap::Round);
+    if width > OUTLINED {
+        out.line(a, b, Stroke { cap: Cap::Butt, ..line });
+        out.line(a, b, Stroke::new(width - 0.5).color(Color::PALE_GREY));
+    } else {
+        out.line(a, b, line);
+    }
+}
+
+/// The smallest n of a round scale 1:n that is at least `ratio`.
+fn round_scale(ratio: f64) -> f64 {
+    if !(ratio > 0.0 && ratio.is_finite()) {
+        return 1.0;
+    }
+    let power = 10f64.powf(ratio.log10().floor());
+    ROUND_SCALES
+        .iter()
+        .map(|s| s * power)
+        .find(|n| *n >= ratio * (1.0 - 1e-12))
+        .unwrap_or(10.0 * power)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::{Item, Shape, bounds};
+    use crate::shop::fixture;
+
+    #[test]
+    fn scales_are_round_and_large_enough() {
+        for (ratio, n) in [(0.9, 1.0), (1.0, 1.0), (3.3, 4.0), (8.5, 10.0), (126.0, 150.0)] {
+            assert!((round_scale(ratio) - n).abs() < 1e-9, "{ratio}: {}", round_scale(ratio));
+        }
+    }
+
+    #[test]
+    fn views_are_orthonormal_and_right_handed() {
+        for v in [View::plan(), View::isometric()] {
+            assert!((v.right.cross(&v.up) - v.toward).norm() < 1e-12);
+            assert!((v.up.norm() - 1.0).abs() < 1e-12);
+        }
+        assert!(View::isometric().up.z > 0.0);
+    }
+
+    #[test]
+    fn the_picture_stays_in_its_room() {
+        let frame = fixture::circuit(7, 3.0);
+        let room = Rect::new([20.0, 30.0], [90.0, 60.0]);
+        for view in [View::plan(), View::isometric()] {
+            let mut items: Vec<Item> = Vec::new();
+            assert!(view.draw(&frame, room, &mut items) >= 1.0);
+            assert!(room.contains_rect(&bounds(&items).unwrap()));
+        }
+    }
+
+    /// In plan, at each contact the last line drawn over the crossing is the over rod's.
+    #[test]
+    fn the_rod_that_is_over_is_drawn_last() {
+        let frame = fixture::circuit(5, 3.0);
+        let view = View::plan();
+        let mut items: Vec<Item> = Vec::new();
+        let room = view.extent(&frame);
+        assert_eq!(view.draw(&frame, room, &mut items), 1.0);
+        for contact in &frame.contacts {
+            let over = &frame.rods[contact.over].axis;
+            let at = view.project(&over.at(contact.at_over));
+            let last = items.iter().rev().find_map(|item| match item {
+                Item::Figure(f) => match f.shape {
+                    Shape::Line(a, b) if near(at, a, b) < 1e-6 => Some((a, b)),
+                    _ => None,
+                },
+                Item::Text(_) => None,
+            });
+            let (a, b) = last.unwrap();
+            let d = over.direction();
+            let along = [b[0] - a[0], b[1] - a[1]];
+            assert!((along[0] * -d.y - along[1] * d.x).abs() < 1e-6);
+        }
+    }
+
+    fn near(p: Point, a: Point, b: Point) -> f64 {
+        let d = [b[0] - a[0], b[1] - a[1]];
+        let t = ((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / (d[0] * d[0] + d[1] * d[1]);
+        let t = t.clamp(0.0, 1.0);
+        (a[0] + t * d[0] - p[0]).hypot(a[1] + t * d[1] - p[1])
+    }
+}
