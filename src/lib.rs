@@ -1,11 +1,42 @@
-//! Reciprocal frames from sticks.
+//! Reciprocal frames from sticks: a surface in, everything needed to build it out.
+//!
+//! A *reciprocal frame* is a structure of rods that carry each other in closed circuits.
+//! This crate covers a surface with one, makes every contact between two rods exact,
+//! and draws the papers for the workshop. Lengths are mm, angles radians, z is up.
+//!
+//! ```
+//! use rodwright::chart::PlanarChart;
+//! use rodwright::frame::{fit::fit, form::{FormSettings, form}, layer::Layering};
+//! use rodwright::surface::{samples::sample, topology::require_disk};
+//! use rodwright::{pattern::Pattern, tiling::Placement};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let dome = sample("igloo").ok_or("no such sample")?;
+//! let chart = PlanarChart::new(dome.clone(), &require_disk(&dome)?)?;
+//! let pattern = Pattern::named("4.4.4.4").ok_or("no such pattern")?;
+//! let (rod, turn) = (3.0, pattern.turn.to_radians());
+//! let start = Placement { origin: [0.0; 2].into(), rotation: 0.0, edge: 20.0 * rod };
+//! let edge = fit(&chart, pattern, &start, turn, rod)?.edge;
+//! let settings = FormSettings {
+//!     diameter: rod, turn, overhang: 6.0, round: 0.5, layering: Layering::Follow, surface_low: 0.0,
+//! };
+//! let frame = form(&chart, pattern, &Placement { edge, ..start }, &settings)?.frame;
+//! assert!(frame.contacts.iter().all(|c| (c.gap - rod).abs() < 1e-9 * rod));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! The whole way, from a design to the files of its folder, is [`pipeline`].
 
 pub mod chart;
+pub mod cli;
+pub mod design;
 pub mod drawing;
 pub mod frame;
 pub mod ids;
 pub mod linalg;
 pub mod pattern;
+pub mod pipeline;
 pub mod sheets;
 pub mod shop;
 pub mod surface;

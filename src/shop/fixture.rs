@@ -94,11 +94,8 @@ pub(crate) fn on_sample(surface: &str, pattern: &str) -> Frame {
     let chart = PlanarChart::new(mesh, &topology).unwrap();
     let pattern = crate::pattern::Pattern::named(pattern).unwrap();
     let (turn, diameter) = (pattern.turn.to_radians(), 3.0);
-    let placement = crate::tiling::Placement {
-        origin: Default::default(),
-        rotation: 0.0,
-        edge: 1.0,
-    };
+    let placement =
+        crate::tiling::Placement { origin: Default::default(), rotation: 0.0, edge: 1.0 };
     let edge = fit(&chart, pattern, &placement, turn, diameter).unwrap().edge;
     let settings = FormSettings {
         diameter,

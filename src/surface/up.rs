@@ -6,7 +6,8 @@ use std::fmt;
 use std::str::FromStr;
 
 /// The axis of a file that points up.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Up {
     /// x is up.
     X,

@@ -6,5 +6,6 @@ pub mod folder;
 pub mod glb;
 mod json;
 pub mod obj;
+pub mod report;
 pub mod structure;
 pub mod tables;

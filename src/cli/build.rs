@@ -1,0 +1,133 @@
+//! `rodwright build`: the main job.
+
+use super::Failure;
+use super::progress::Progress;
+use super::summary::summary;
+use super::terminal::{Terminal, print};
+use crate::design::{Design, DesignError, Settings};
+use crate::pipeline::{self, BuildError, Model, Step};
+use crate::write::folder::{FolderError, OutputFolder};
+use std::path::{Path, PathBuf};
+
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    settings: Settings,
+
+    /// Take settings from a file; options on the command line win
+    #[arg(long, value_name = "FILE")]
+    design: Option<PathBuf>,
+
+    /// Folder to write [default: the surface's name and -frame]
+    #[arg(short, long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
+
+    /// Replace a rodwright folder even if it holds other files, which are kept
+    #[arg(long)]
+    force: bool,
+
+    /// Print the report as JSON instead of the summary
+    #[arg(long)]
+    json: bool,
+
+    /// Say nothing but errors
+    #[arg(short, long, conflicts_with = "verbose")]
+    quiet: bool,
+
+    /// Say what was mended and how long each step took
+    #[arg(short, long)]
+    verbose: bool,
+}
+
+pub fn run(args: Args, terminal: &Terminal) -> Result<(), Failure> {
+    let design = design(&args)?;
+    let out = args.out.clone().unwrap_or_else(|| design.default_folder());
+    let mut folder = OutputFolder::prepare(&out, args.force).map_err(folder_failure)?;
+    let mut progress = Progress::new(args.quiet);
+    let (model, files) = work(&design, &mut progress)
+        .map_err(|e| if e.is_io() { Failure::file(e) } else { Failure::input(e) })?;
+    progress.begin(Step::Write);
+    let report = files.iter().find(|(name, _)| name == "report.json").map(|f| f.1.clone());
+    for (name, bytes) in files {
+        folder.add(name, bytes).map_err(folder_failure)?;
+    }
+    let written = folder.commit().map_err(folder_failure)?;
+    progress.finish(args.verbose, terminal);
+    if args.verbose {
+        model.notes.iter().for_each(|note| terminal.note(note));
+    }
+    if !args.quiet {
+        warnings(&design, &model).iter().for_each(|w| terminal.warning(w));
+    }
+    if !args.quiet && !written.kept.is_empty() {
+        terminal.note(&format!("{} files of yours were kept in the folder", written.kept.len()));
+    }
+    match report {
+        Some(report) if args.json => print(&report),
+        _ if args.quiet => Ok(()),
+        _ => print(summary(&design, &model, &out, terminal).as_bytes()),
+    }
+}
+
+fn folder_failure(e: FolderError) -> Failure {
+    Failure::file(match e.hint() {
+        Some(hint) => format!("{e}. To mend it, {hint}"),
+        None => e.to_string(),
+    })
+}
+
+fn design(args: &Args) -> Result<Design, Failure> {
+    let failure = |e: DesignError| match e {
+        DesignError::Unreadable { .. } => Failure::file(e),
+        _ => Failure::input(e),
+    };
+    let from_file = match &args.design {
+        Some(file) => Settings::read(file).map_err(failure)?,
+        None => Settings::default(),
+    };
+    let folder = args.design.as_deref().and_then(Path::parent);
+    // A surface named on the command line is not looked up beside the design file.
+    let folder = folder.filter(|_| args.settings.surface.is_none());
+    args.settings.clone().or(from_file).resolve(folder).map_err(failure)
+}
+
+fn work(
+    design: &Design,
+    progress: &mut Progress,
+) -> Result<(Model, Vec<pipeline::OutputFile>), BuildError> {
+    let model = pipeline::build(design, &mut |step| progress.begin(step))?;
+    progress.begin(Step::Draw);
+    let files = pipeline::files(design, &model)?;
+    Ok((model, files))
+}
+
+/// A stick this many times thicker or thinner than the rise sits badly.
+const ILL_FITTING: f64 = 2.0;
+
+/// What the builder should know before sawing.
+fn warnings(design: &Design, model: &Model) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let ratio = design.rod / model.fit.rise;
+    if design.unit.is_some() && !(1.0 / ILL_FITTING..=ILL_FITTING).contains(&ratio) {
+        let thick = if ratio > 1.0 { "thick" } else { "thin" };
+        warnings.push(format!(
+            "{} mm rods are rather {thick} for units of {:.1} mm on this surface: {:.1} mm would \
+             suit, or leave out --unit",
+            design.rod, model.fit.edge, model.fit.rise
+        ));
+    }
+    let frame = &model.formed.frame;
+    if frame.supports.len() < 3 {
+        warnings.push(format!(
+            "{} rods reach the ground: the model needs a stand or a rim to rest on",
+            frame.supports.len()
+        ));
+    }
+    if !frame.dropped.is_empty() {
+        warnings.push(format!(
+            "{} units were left out because they do not work; report.json says where and why",
+            frame.dropped.len()
+        ));
+    }
+    warnings
+}

@@ -1,0 +1,82 @@
+//! The command line: one file a subcommand.
+
+mod build;
+mod complete;
+mod inspect;
+mod progress;
+mod sample;
+mod summary;
+mod terminal;
+
+use clap::{ColorChoice, CommandFactory, Parser, Subcommand};
+use std::process::ExitCode;
+use terminal::Terminal;
+
+/// Reciprocal frames from sticks: from a surface to the papers for building it
+#[derive(Parser)]
+#[command(name = "rodwright", version, max_term_width = 100, disable_help_subcommand = true)]
+#[command(after_help = "Lengths take a unit (3mm, 12cm, 0.6m, 1/8in, 2ft), a bare number is mm; \
+                        angles take deg or rad, a bare number is degrees.")]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+
+    /// When to use colour
+    #[arg(long, global = true, value_enum, default_value = "auto")]
+    color: ColorChoice,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Make a frame on a surface and write everything needed to build it
+    Build(Box<build::Args>),
+    /// Tell everything about a rod, contact or unit of a finished folder
+    Inspect(inspect::Args),
+    /// Write a sample surface
+    Sample(sample::Args),
+    /// Print a script that completes commands in a shell
+    Completions(complete::Args),
+    /// Print the manual page
+    Man,
+}
+
+/// What a command ends with when it fails.
+enum Failure {
+    /// The input or design cannot give a result: exit status 1.
+    Input(String),
+    /// A file or folder cannot be read or written: exit status 3.
+    File(String),
+}
+
+impl Failure {
+    fn input(message: impl ToString) -> Self {
+        Self::Input(message.to_string())
+    }
+
+    fn file(message: impl ToString) -> Self {
+        Self::File(message.to_string())
+    }
+}
+
+/// Runs the program with the arguments of the process.
+///
+/// Exit status: 0 done; 1 the input or design cannot give a structure; 2 wrong
+/// usage; 3 a file could not be read or written.
+pub fn run() -> ExitCode {
+    let cli = Cli::parse();
+    let terminal = Terminal::new(cli.color);
+    let done = match cli.command {
+        Command::Build(args) => build::run(*args, &terminal),
+        Command::Inspect(args) => inspect::run(&args, &terminal),
+        Command::Sample(args) => sample::run(&args),
+        Command::Completions(args) => complete::completions(&args, Cli::command()),
+        Command::Man => complete::man(Cli::command()),
+    };
+    let (message, status) = match done {
+        Ok(()) => return ExitCode::SUCCESS,
+        Err(Failure::Input(message)) => (message, 1),
+        Err(Failure::File(message)) => (message, 3),
+    };
+    terminal.error(&message);
+    ExitCode::from(status)
+}

@@ -1,0 +1,72 @@
+//! The summary at the end of a run, for the builder.
+
+use super::terminal::Terminal;
+use crate::design::Design;
+use crate::pipeline::Model;
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// A table of what was made and what to buy.
+pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) -> String {
+    let m = &model.measures;
+    let plan = &model.plan;
+    let buy: Vec<String> =
+        plan.shopping().iter().map(|(length, n)| format!("{n} × {length} mm")).collect();
+    let optimal = if plan.is_proven() { "fewest possible" } else { "good, perhaps not the fewest" };
+    let [lo, hi] = model.formed.frame.bounds();
+    let size = hi - lo;
+    let rows = [
+        ("rods", format!("{} of {} mm diameter, {} units", m.rods, design.rod, m.units)),
+        ("size", format!("{:.0} × {:.0} × {:.0} mm", size.x, size.y, size.z)),
+        (
+            "lengths",
+            format!(
+                "{:.1} to {:.1} mm, {} different, {:.2} m in all",
+                m.lengths[0],
+                m.lengths[1],
+                m.distinct_lengths,
+                m.total_length / 1e3
+            ),
+        ),
+        ("to buy", format!("{}, {:.1} % waste ({optimal})", buy.join(" + "), 100.0 * plan.waste())),
+        ("contacts", format!("{}, worst error {:.1e} of the diameter", m.contacts, m.worst_gap)),
+        ("on the ground", format!("{} rods", m.supports)),
+        ("unit", unit(design, model)),
+        (
+            "off the surface",
+            format!("{:.1} mm rms, {:.1} mm at most", m.from_surface.rms, m.from_surface.max),
+        ),
+        ("left out", left_out(model)),
+    ];
+    let mut text = String::new();
+    let title = format!("{}: {} reciprocal frame", design.name(), design.pattern.name);
+    writeln!(text, "{}", terminal.bold(&title)).expect("writing to a string cannot fail");
+    for (label, value) in rows {
+        writeln!(text, "  {label:<16} {value}").expect("writing to a string cannot fail");
+    }
+    let end = format!("  {:<16} {}", "written to", out.display());
+    writeln!(text, "{end}").expect("writing to a string cannot fail");
+    text
+}
+
+fn unit(design: &Design, model: &Model) -> String {
+    let fit = &model.fit;
+    let how = if design.unit.is_some() {
+        format!("as given; rods of {:.1} mm would suit it best", fit.rise)
+    } else if fit.by_rise {
+        "fitted to rod and surface".into()
+    } else {
+        "20 diameters: the surface is too flat for the rods to decide".into()
+    };
+    format!("tile edge {:.1} mm, {how}", fit.edge)
+}
+
+fn left_out(model: &Model) -> String {
+    match &model.formed.frame.dropped[..] {
+        [] => "nothing".into(),
+        [one] => format!("1 unit: {}", one.reason),
+        [first, rest @ ..] => {
+            format!("{} units, the first: {}", rest.len() + 1, first.reason)
+        }
+    }
+}

@@ -1,0 +1,306 @@
+//! The whole way, from a design to the files of its output folder. Read this first.
+
+use crate::chart::{ChartError, Distortion, PlanarChart};
+use crate::design::{Design, Part};
+use crate::drawing::pdf::{self, DocumentInfo, Page};
+use crate::drawing::{DrawingError, svg};
+use crate::frame::fit::{Fit, FitError, fit};
+use crate::frame::form::{FormError, FormSettings, Formed, form, median_rise};
+use crate::frame::measure::{Measures, measure};
+use crate::sheets::{SheetError, SheetSettings, sheets, support_map};
+use crate::shop::cutlist::{CutError, CutPlan, Stock, plan};
+use crate::shop::lengths::{classes, cut_lengths};
+use crate::surface::locate::Locator;
+use crate::surface::mend::MendError;
+use crate::surface::read::{ReadError, read};
+use crate::surface::topology::{TopologyError, require_disk};
+use crate::surface::up::{Up, upright};
+use crate::surface::{Mesh, Point3};
+use crate::tiling::Placement;
+use crate::write::cutlist::{cutlist_csv, cutlist_json};
+use crate::write::glb::{GlbError, glb};
+use crate::write::report::{self, Report};
+use crate::write::structure::{Structure, StructureFault};
+use crate::write::tables::{self, TableError};
+use thiserror::Error;
+
+/// A finished model: the frame and everything that was found on the way.
+#[derive(Debug)]
+pub struct Model {
+    /// The guiding surface, mm, z up, scaled.
+    pub surface: Mesh,
+    /// What was mended in the surface, a sentence each.
+    pub notes: Vec<String>,
+    /// How much the chart distorts.
+    pub distortion: Distortion,
+    /// The tile edge and the rise at it.
+    pub fit: Fit,
+    /// The frame.
+    pub formed: Formed,
+    /// Its figures.
+    pub measures: Measures,
+    /// The sawing plan.
+    pub plan: CutPlan,
+}
+
+/// The steps of a run, as they begin.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Step {
+    /// Reading and mending the surface.
+    Read,
+    /// Flattening it.
+    Chart,
+    /// Finding the tile edge.
+    Fit,
+    /// Weaving, lifting and closing the frame.
+    Form,
+    /// Measuring the result.
+    Measure,
+    /// Planning the saw cuts.
+    Saw,
+    /// Drawing and encoding the documents.
+    Draw,
+    /// Writing the folder.
+    Write,
+}
+
+/// A file of the output folder: its path inside, and its bytes.
+pub type OutputFile = (String, Vec<u8>);
+
+/// Makes the model that a design asks for. `begin` is called as each step begins.
+///
+/// # Errors
+/// [`BuildError`] with what is wrong and what to try.
+pub fn build(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, BuildError> {
+    begin(Step::Read);
+    let (surface, notes) = guiding_surface(design)?;
+    begin(Step::Chart);
+    let topology = require_disk(&surface)?;
+    let chart = PlanarChart::new(surface.clone(), &topology)?;
+    begin(Step::Fit);
+    let fit = tile_edge(design, &chart)?;
+    begin(Step::Form);
+    let settings = form_settings(design, &surface);
+    let formed = form(&chart, design.pattern, &placement(design, fit.edge), &settings)?;
+    begin(Step::Measure);
+    let measures = measure(&formed, &Locator::new(&surface));
+    begin(Step::Saw);
+    let plan = sawing_plan(design, &formed)?;
+    Ok(Model { surface, notes, distortion: chart.distortion(), fit, formed, measures, plan })
+}
+
+/// The files that the design wants of a model, in a fixed order.
+///
+/// # Errors
+/// [`BuildError`] when a document cannot be drawn or encoded.
+pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, BuildError> {
+    let frame = &model.formed.frame;
+    let classes = classes(frame);
+    let structure = Structure::from_frame(frame, &classes, &[]);
+    let stock: Vec<f64> = model.plan.shopping().iter().map(|&(length, _)| length).collect();
+    let mut files = Files::default();
+    files.add("structure.json", structure.to_json()?);
+    files.add("report.json", report(design, model).to_json()?);
+    files.add("design.toml", design.to_toml(model.fit.edge, &stock));
+    if design.wants(Part::Csv) {
+        files.add("rods.csv", tables::rods(frame, &classes)?);
+        files.add("contacts.csv", tables::contacts(frame)?);
+        files.add("supports.csv", tables::supports(frame)?);
+    }
+    if design.wants(Part::Cutlist) {
+        files.add("cutlist.json", cutlist_json(&model.plan)?);
+        files.add("cutlist.csv", cutlist_csv(&model.plan, &classes)?);
+    }
+    if design.wants(Part::Glb) {
+        files.add("model.glb", glb(&structure)?);
+    }
+    if design.wants(Part::Sheets) {
+        add_sheets(design, model, &mut files)?;
+    }
+    if design.wants(Part::SupportMap) {
+        add_support_map(design, model, &mut files)?;
+    }
+    Ok(files.0)
+}
+
+#[derive(Default)]
+struct Files(Vec<OutputFile>);
+
+impl Files {
+    fn add(&mut self, name: impl Into<String>, content: impl Into<Vec<u8>>) {
+        self.0.push((name.into(), content.into()));
+    }
+}
+
+/// Reads the surface, turns it upright and scales it.
+fn guiding_surface(design: &Design) -> Result<(Mesh, Vec<String>), BuildError> {
+    let reading = read(&design.surface_file)?;
+    let mut mesh = match design.up {
+        Some(up) if !(reading.y_up_metres && up == Up::Y) => upright(&reading.mesh, up)?,
+        _ => reading.mesh,
+    };
+    if let (Some(span), Some([lo, hi])) = (design.span, mesh.bounds()) {
+        let longest = (hi.x - lo.x).max(hi.y - lo.y);
+        if longest <= 0.0 {
+            return Err(BuildError::NoSpan);
+        }
+        for p in mesh.points.iter_mut() {
+            *p = Point3::from(p.coords * (span / longest));
+        }
+    }
+    Ok((mesh, reading.notes))
+}
+
+fn placement(design: &Design, edge: f64) -> Placement {
+    Placement { origin: design.origin.into(), rotation: design.rotate, edge }
+}
+
+/// The tile edge given, or the one that fits.
+fn tile_edge(design: &Design, chart: &PlanarChart) -> Result<Fit, BuildError> {
+    let Some(edge) = design.unit else {
+        let start = placement(design, design.rod);
+        return Ok(fit(chart, design.pattern, &start, design.turn, design.rod)?);
+    };
+    let (tiles, rise) = median_rise(chart, design.pattern, &placement(design, edge), design.turn)
+        .unwrap_or_default();
+    Ok(Fit { edge, rise, units: tiles.len(), by_rise: false })
+}
+
+fn form_settings(design: &Design, surface: &Mesh) -> FormSettings {
+    FormSettings {
+        diameter: design.rod,
+        turn: design.turn,
+        overhang: design.overhang,
+        round: design.round,
+        layering: design.layer,
+        surface_low: surface.bounds().map_or(0.0, |[lo, _]| lo.z),
+    }
+}
+
+/// Stock that holds every rod where the user names none: 1 m, or the next whole metre.
+fn sawing_plan(design: &Design, formed: &Formed) -> Result<CutPlan, BuildError> {
+    let lengths = cut_lengths(&formed.frame);
+    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    let stock = if design.stock.is_empty() {
+        vec![((longest / METRE).ceil() * METRE).max(METRE)]
+    } else {
+        design.stock.clone()
+    };
+    Ok(plan(&lengths, &Stock { lengths: stock, kerf: design.kerf })?)
+}
+
+/// Sticks are sold by the metre, mm.
+const METRE: f64 = 1000.0;
+
+fn report(design: &Design, model: &Model) -> Report {
+    Report {
+        model: design.name(),
+        pattern: design.pattern.name.into(),
+        rod_diameter: design.rod,
+        turn: design.turn.to_degrees(),
+        surface: report::surface(&model.surface, &model.notes, &model.distortion),
+        fit: report::fit(&model.fit, design.unit.is_some()),
+        closing: report::closing(&model.formed.closing),
+        measures: model.measures.clone(),
+        sawing: report::sawing(&model.plan),
+        dropped: report::dropped(&model.formed.frame),
+    }
+}
+
+fn add_sheets(design: &Design, model: &Model, files: &mut Files) -> Result<(), BuildError> {
+    let sheets = sheets(&model.formed.frame, &model.plan, &sheet_settings(design))?;
+    for sheet in &sheets {
+        files.add(format!("sheets/{}.svg", sheet.stem), svg::render(&sheet.page.drawing)?);
+    }
+    let pages: Vec<Page> = sheets.into_iter().map(|s| s.page).collect();
+    files.add("sheets.pdf", pdf::render(&pages, &info(design, "building sheets"))?);
+    Ok(())
+}
+
+fn add_support_map(design: &Design, model: &Model, files: &mut Files) -> Result<(), BuildError> {
+    let (frame, settings) = (&model.formed.frame, sheet_settings(design));
+    files.add("support-map.svg", svg::render(&support_map::drawing(frame, &settings)?)?);
+    let sheets = support_map::pages(frame, &settings)?;
+    let pages: Vec<Page> = sheets.into_iter().map(|s| s.page).collect();
+    files.add("support-map.pdf", pdf::render(&pages, &info(design, "support map"))?);
+    Ok(())
+}
+
+fn sheet_settings(design: &Design) -> SheetSettings {
+    SheetSettings {
+        model: design.name(),
+        paper: design.paper,
+        units: design.units,
+        notes: vec![format!("pattern {}", design.pattern.name)],
+    }
+}
+
+fn info(design: &Design, what: &str) -> DocumentInfo {
+    DocumentInfo {
+        title: format!("{}: {what}", design.name()),
+        creator: format!("rodwright {}", env!("CARGO_PKG_VERSION")),
+        ..DocumentInfo::default()
+    }
+}
+
+/// Why there is no model, or no folder.
+#[derive(Error, Debug)]
+pub enum BuildError {
+    /// The surface file.
+    #[error("{0}. {hint}", hint = sentence(.0.hint()))]
+    Read(#[from] ReadError),
+    /// The surface, once turned.
+    #[error("{0}. {hint}", hint = sentence(.0.hint()))]
+    Mend(#[from] MendError),
+    /// The surface's shape.
+    #[error("{0}\n{hint}", hint = sentence(&.0.hint()))]
+    Topology(#[from] TopologyError),
+    /// A surface that stands on edge has no span.
+    #[error(
+        "the surface has no horizontal extent, so --span cannot scale it. Set --up to the axis that points up"
+    )]
+    NoSpan,
+    /// The chart.
+    #[error(transparent)]
+    Chart(#[from] ChartError),
+    /// The tile edge.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// The frame.
+    #[error(transparent)]
+    Form(#[from] FormError),
+    /// The sawing plan.
+    #[error("{0}. {hint}", hint = sentence(&.0.hint()))]
+    Cut(#[from] CutError),
+    /// The papers.
+    #[error(transparent)]
+    Sheets(#[from] SheetError),
+    /// A drawing.
+    #[error(transparent)]
+    Drawing(#[from] DrawingError),
+    /// structure.json.
+    #[error(transparent)]
+    Structure(#[from] StructureFault),
+    /// report.json.
+    #[error("report.json cannot be written: {0}")]
+    Report(#[from] serde_json::Error),
+    /// A table.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// model.glb.
+    #[error(transparent)]
+    Glb(#[from] GlbError),
+}
+
+/// A hint as a sentence of its own.
+fn sentence(hint: &str) -> String {
+    let mut letters = hint.chars();
+    letters.next().map_or_else(String::new, |c| c.to_uppercase().chain(letters).collect())
+}
+
+impl BuildError {
+    /// Whether a file that cannot be read, not what it holds, is at fault.
+    pub fn is_io(&self) -> bool {
+        matches!(self, Self::Read(e) if e.is_io())
+    }
+}

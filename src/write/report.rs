@@ -1,0 +1,135 @@
+//! report.json: what was measured on the way and of the result. Lengths in mm,
+//! angles in degrees. It holds no times, so that the same run gives the same bytes.
+
+use crate::chart::Distortion;
+use crate::frame::Frame;
+use crate::frame::close::Closing;
+use crate::frame::fit::Fit;
+use crate::frame::measure::Measures;
+use crate::shop::cutlist::CutPlan;
+use crate::surface::Mesh;
+use serde::Serialize;
+
+/// The report of a run.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    pub model: String,
+    pub pattern: String,
+    pub rod_diameter: f64,
+    pub turn: f64,
+    pub surface: Surface,
+    pub fit: Fitted,
+    pub closing: Closed,
+    pub measures: Measures,
+    pub sawing: Sawing,
+    pub dropped: Vec<DroppedUnit>,
+}
+
+impl Report {
+    /// The file's text.
+    ///
+    /// # Errors
+    /// When a figure cannot be written, which no report causes.
+    pub fn to_json(&self) -> Result<String, serde_json::Error> {
+        serde_json::to_string_pretty(self).map(|text| text + "\n")
+    }
+}
+
+/// The guiding surface and its chart.
+#[derive(Clone, Debug, Serialize)]
+pub struct Surface {
+    pub triangles: usize,
+    /// Width, depth, height.
+    pub size: [f64; 3],
+    /// What was mended.
+    pub mended: Vec<String>,
+    /// Mean and largest change of a triangle angle.
+    pub angle_distortion: [f64; 2],
+    /// Least and greatest length on the surface of a unit length in the plane.
+    pub scale: [f64; 2],
+    /// Steps of the flattening.
+    pub flattening_steps: usize,
+}
+
+/// The tile edge.
+#[derive(Clone, Debug, Serialize)]
+pub struct Fitted {
+    pub edge: f64,
+    /// `given`, `rise` (where the median rise equals the diameter) or `plain` (20
+    /// diameters, on surfaces without enough curvature).
+    pub by: &'static str,
+    /// Median rise at this edge: the diameter that would suit best.
+    pub median_rise: f64,
+}
+
+/// The closing of the contacts.
+#[derive(Clone, Debug, Serialize)]
+pub struct Closed {
+    pub steps: usize,
+    /// Largest error of a gap, as part of the diameter.
+    pub error: f64,
+}
+
+/// The sawing plan.
+#[derive(Clone, Debug, Serialize)]
+pub struct Sawing {
+    pub bars: usize,
+    pub bought: f64,
+    pub waste: f64,
+    pub least_bars: usize,
+    pub proven: bool,
+}
+
+/// A unit that was left out.
+#[derive(Clone, Debug, Serialize)]
+pub struct DroppedUnit {
+    pub center: [f64; 3],
+    pub reason: String,
+}
+
+/// The surface's part of the report.
+pub fn surface(mesh: &Mesh, notes: &[String], distortion: &Distortion) -> Surface {
+    Surface {
+        triangles: mesh.triangles.len(),
+        size: mesh.bounds().map_or([0.0; 3], |[lo, hi]| (hi - lo).into()),
+        mended: notes.to_vec(),
+        angle_distortion: [distortion.mean_angle, distortion.max_angle].map(f64::to_degrees),
+        scale: distortion.scale,
+        flattening_steps: distortion.steps,
+    }
+}
+
+/// The fit's part of the report.
+pub fn fit(fit: &Fit, given: bool) -> Fitted {
+    let by = match (given, fit.by_rise) {
+        (true, _) => "given",
+        (false, true) => "rise",
+        (false, false) => "plain",
+    };
+    Fitted { edge: fit.edge, by, median_rise: fit.rise }
+}
+
+/// The closing's part of the report.
+pub fn closing(closing: &Closing) -> Closed {
+    Closed { steps: closing.steps, error: closing.error }
+}
+
+/// The sawing plan's part of the report.
+pub fn sawing(plan: &CutPlan) -> Sawing {
+    Sawing {
+        bars: plan.bars.len(),
+        bought: plan.bought(),
+        waste: plan.waste(),
+        least_bars: plan.bound,
+        proven: plan.is_proven(),
+    }
+}
+
+/// The units left out, and why.
+pub fn dropped(frame: &Frame) -> Vec<DroppedUnit> {
+    let unit = |d: &crate::frame::Dropped| DroppedUnit {
+        center: d.center.coords.into(),
+        reason: d.reason.clone(),
+    };
+    frame.dropped.iter().map(unit).collect()
+}

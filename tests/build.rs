@@ -1,0 +1,172 @@
+//! The main job, run as a user runs it.
+
+mod common;
+
+use common::{check_structure, rodwright, sample, snapshot, structure};
+use tempfile::tempdir;
+
+const PATTERNS: [&str; 8] = [
+    "4.4.4.4",
+    "3.3.3.3.3.3",
+    "6.6.6",
+    "3.6.3.6",
+    "3.4.6.4",
+    "3.3.3.4.4",
+    "3.3.4.3.4",
+    "3.3.3.3.6",
+];
+
+#[test]
+fn every_pattern_makes_a_sound_frame_of_the_igloo_and_the_station() {
+    let dir = tempdir().unwrap();
+    for surface in ["igloo.obj", "train-station.obj"] {
+        for pattern in PATTERNS {
+            let out = dir.path().join(pattern);
+            rodwright(dir.path())
+                .args(["build", &sample(surface), "--pattern", pattern])
+                .args(["--only", "structure", "-q", "-o"])
+                .arg(&out)
+                .assert()
+                .success();
+            let rods = check_structure(&structure(&out));
+            assert!((100..=400).contains(&rods), "{surface} {pattern}: {rods} rods");
+        }
+    }
+}
+
+#[test]
+fn a_run_writes_every_file_of_the_folder_and_the_same_bytes_twice() {
+    let dir = tempdir().unwrap();
+    let run = |out: &str| {
+        rodwright(dir.path()).args(["build", &sample("igloo.obj"), "-o", out]).assert().success();
+        snapshot(&dir.path().join(out))
+    };
+    let (first, second) = (run("one"), run("two"));
+    for name in [
+        "structure.json",
+        "report.json",
+        "rods.csv",
+        "contacts.csv",
+        "supports.csv",
+        "cutlist.json",
+        "cutlist.csv",
+        "model.glb",
+        "sheets.pdf",
+        "support-map.svg",
+        "support-map.pdf",
+        "design.toml",
+    ] {
+        assert!(first.contains_key(name), "{name} is missing");
+    }
+    assert!(first.keys().any(|name| name.starts_with("sheets/") && name.ends_with(".svg")));
+    assert_eq!(first.keys().collect::<Vec<_>>(), second.keys().collect::<Vec<_>>());
+    for (name, bytes) in &first {
+        assert!(bytes == &second[name], "{name} differs between two runs");
+    }
+}
+
+#[test]
+fn the_design_file_of_a_folder_repeats_its_run() {
+    let dir = tempdir().unwrap();
+    rodwright(dir.path())
+        .args(["build", &sample("igloo.obj"), "-o", "first", "--rod", "1/8in", "--turn=-22deg"])
+        .args(["--span", "2ft", "--pattern", "3.6.3.6", "--stock", "900mm,400mm", "--kerf", "1.2"])
+        .assert()
+        .success();
+    rodwright(dir.path())
+        .args(["build", "--design", "first/design.toml", "-o", "second"])
+        .assert()
+        .success();
+    let (first, second) =
+        (snapshot(&dir.path().join("first")), snapshot(&dir.path().join("second")));
+    for (name, bytes) in &first {
+        assert!(bytes == &second[name], "{name} differs");
+    }
+}
+
+#[test]
+fn rods_are_sawn_to_the_step_asked_for() {
+    let dir = tempdir().unwrap();
+    rodwright(dir.path())
+        .args(["build", &sample("igloo.obj"), "-o", "out", "--round", "5mm"])
+        .assert()
+        .success();
+    for rod in structure(&dir.path().join("out"))["rods"].as_array().unwrap() {
+        let steps = rod["length"].as_f64().unwrap() / 5.0;
+        assert!((steps - steps.round()).abs() < 1e-9, "{rod}");
+    }
+}
+
+#[test]
+fn sizes_scale_together() {
+    let dir = tempdir().unwrap();
+    let build = |out: &str, args: &[&str]| {
+        let mut command = rodwright(dir.path());
+        command.args(["build", &sample("igloo.obj"), "-o", out, "--only", "structure"]);
+        command.args(args).assert().success();
+        structure(&dir.path().join(out))
+    };
+    let small = build("small", &["--round", "0"]);
+    let large = build("large", &["--round", "0", "--rod", "30mm", "--span", "6m"]);
+    let pairs = small["rods"].as_array().unwrap().iter().zip(large["rods"].as_array().unwrap());
+    for (s, l) in pairs {
+        let (s, l) = (s["length"].as_f64().unwrap(), l["length"].as_f64().unwrap());
+        assert!((l / s - 10.0).abs() < 1e-6, "{s} {l}");
+    }
+}
+
+#[test]
+fn the_summary_tells_what_to_buy_and_json_gives_the_report() {
+    let dir = tempdir().unwrap();
+    let run = |args: &[&str]| {
+        let mut command = rodwright(dir.path());
+        command.args(["build", &sample("igloo.obj"), "-o", "out"]).args(args);
+        String::from_utf8(command.assert().success().get_output().stdout.clone()).unwrap()
+    };
+    let summary = run(&[]);
+    for word in ["rods", "to buy", "1000 mm", "different", "worst error", "left out"] {
+        assert!(summary.contains(word), "{word} is not in\n{summary}");
+    }
+    let report: serde_json::Value = serde_json::from_str(&run(&["--json"])).unwrap();
+    assert!(report["measures"]["worst_gap"].as_f64().unwrap() <= 1e-9);
+    assert!(report["measures"]["rods"].as_u64().unwrap() >= 100);
+    assert_eq!(run(&["-q"]), "");
+}
+
+#[test]
+fn inspect_tells_about_rods_contacts_and_units() {
+    let dir = tempdir().unwrap();
+    rodwright(dir.path()).args(["build", &sample("igloo.obj"), "-o", "out"]).assert().success();
+    let inspect = |args: &[&str]| {
+        let mut command = rodwright(dir.path());
+        let output = command.arg("inspect").arg("out").args(args).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stdout).unwrap())
+    };
+    let (status, rod) = inspect(&["--rod", "r12"]);
+    assert_eq!(status, Some(0));
+    assert!(rod.contains("Rod R012") && rod.contains("clock"), "{rod}");
+    assert!(inspect(&["--contact", "C0001"]).1.contains("over"));
+    assert!(inspect(&["--unit", "U001"]).1.contains("4: R001"));
+    assert!(inspect(&[]).1.contains("Lengths"));
+    assert_eq!(inspect(&["--rod", "R999"]).0, Some(1));
+}
+
+#[test]
+fn samples_on_disk_are_what_the_program_writes() {
+    let dir = tempdir().unwrap();
+    for name in ["igloo", "train-station"] {
+        let output = rodwright(dir.path()).args(["sample", name]).assert().success();
+        let kept = std::fs::read(sample(&format!("{name}.obj"))).unwrap();
+        assert!(output.get_output().stdout == kept, "samples/{name}.obj is out of date");
+    }
+}
+
+#[test]
+fn completions_and_manual_name_the_commands() {
+    let dir = tempdir().unwrap();
+    for args in [&["completions", "bash"][..], &["man"]] {
+        let output = rodwright(dir.path()).args(args).assert().success();
+        let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
+        assert!(text.contains("build") && text.contains("inspect"), "{args:?}");
+    }
+}

@@ -1,0 +1,106 @@
+//! Running the program, and an own check of what it wrote.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+pub type Vec3 = nalgebra::Vector3<f64>;
+
+/// The program, ready to run in a folder.
+pub fn rodwright(folder: &Path) -> Command {
+    let mut command = Command::cargo_bin("rodwright").expect("the program is built for tests");
+    command.current_dir(folder).env("NO_COLOR", "1");
+    command
+}
+
+/// The path of a file in samples/.
+pub fn sample(name: &str) -> String {
+    format!("{}/samples/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All files below a folder with their bytes.
+pub fn snapshot(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    let mut todo = vec![folder.to_path_buf()];
+    while let Some(dir) = todo.pop() {
+        for entry in std::fs::read_dir(&dir).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                todo.push(path);
+            } else {
+                let name = path.strip_prefix(folder).unwrap().to_string_lossy().into_owned();
+                files.insert(name, std::fs::read(&path).unwrap());
+            }
+        }
+    }
+    files
+}
+
+/// The structure of a folder.
+pub fn structure(folder: &Path) -> Value {
+    serde_json::from_slice(&std::fs::read(folder.join("structure.json")).unwrap()).unwrap()
+}
+
+fn vector(v: &Value) -> Vec3 {
+    let n: Vec<f64> = v.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+    Vec3::new(n[0], n[1], n[2])
+}
+
+/// Checks a structure from its axes alone: gaps, marks, sides, clearances, and that
+/// every rod is held twice. Returns the number of rods.
+pub fn check_structure(s: &Value) -> usize {
+    let w = s["rod_diameter"].as_f64().unwrap();
+    let rods: BTreeMap<&str, (Vec3, Vec3)> = s["rods"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|r| (r["id"].as_str().unwrap(), (vector(&r["a"]), vector(&r["b"]))))
+        .collect();
+    let mut held: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut touching = BTreeSet::new();
+    for c in s["contacts"].as_array().unwrap() {
+        let [over, under] = ["over", "under"].map(|k| c[k].as_str().unwrap());
+        check_contact(c, rods[over], rods[under], w);
+        touching.insert([over.min(under), over.max(under)]);
+        *held.entry(over).or_default() += 1;
+        *held.entry(under).or_default() += 1;
+    }
+    assert!(rods.keys().all(|r| held.get(r).is_some_and(|&n| n >= 2)), "a rod dangles");
+    let all: Vec<_> = rods.iter().collect();
+    for (i, (p, a)) in all.iter().enumerate() {
+        for (q, b) in &all[i + 1..] {
+            if !touching.contains(&[**p.min(q), **p.max(q)]) {
+                let least = segment_distance(**a, **b);
+                assert!(least >= w * (1.0 - 1e-6), "{p} and {q} clash: {least}");
+            }
+        }
+    }
+    rods.len()
+}
+
+fn check_contact(c: &Value, (a0, a1): (Vec3, Vec3), (b0, b1): (Vec3, Vec3), w: f64) {
+    let id = &c["id"];
+    let (u, v) = ((a1 - a0).normalize(), (b1 - b0).normalize());
+    let [s, t] = ["at_over", "at_under"].map(|k| c[k].as_f64().unwrap());
+    let apart = (a0 + u * s) - (b0 + v * t);
+    assert!((apart.norm() - w).abs() <= 1e-9 * w, "{id}: gap {}", apart.norm());
+    assert!(apart.dot(&u).abs() < 1e-6 && apart.dot(&v).abs() < 1e-6, "{id}: marks");
+    assert!(apart.dot(&vector(&c["normal"])) > 0.0, "{id}: over is not over");
+    assert!(0.0 < s && s < (a1 - a0).norm() && 0.0 < t && t < (b1 - b0).norm(), "{id}: off");
+    let angle = u.dot(&v).abs().acos().to_degrees();
+    assert!((angle - c["angle"].as_f64().unwrap()).abs() < 1e-6, "{id}: angle {angle}");
+}
+
+/// Distance of two segments by alternating projection, which converges for convex sets.
+fn segment_distance((a0, a1): (Vec3, Vec3), (b0, b1): (Vec3, Vec3)) -> f64 {
+    let onto = |p: Vec3, q0: Vec3, q1: Vec3| {
+        let d = q1 - q0;
+        q0 + d * ((p - q0).dot(&d) / d.norm_squared()).clamp(0.0, 1.0)
+    };
+    let mut p = (a0 + a1) / 2.0;
+    for _ in 0..200 {
+        p = onto(onto(p, b0, b1), a0, a1);
+    }
+    (p - onto(p, b0, b1)).norm()
+}
