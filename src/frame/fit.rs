@@ -34,12 +34,14 @@ pub enum FitError {
          model (--span), or set the unit yourself (--unit)"
     )]
     TooThick { diameter: f64, suits: f64 },
-    /// No pattern of any tried size has enough units.
+    /// The surface is too small for the rods.
     #[error(
-        "no pattern with units between {from:.1} and {to:.1} mm finds room for three of them on \
-         this surface. Use thinner rods (--rod) or a larger model (--span)"
+        "there is no room for {LIKENESS} units on this surface, which is some {size:.1} mm across \
+         when laid flat: units of {diameter} mm rods need an edge of {least:.1} mm or more. If the \
+         file is not in mm, say how large the model is to be (--span); else use rods of at most \
+         {suits:.2} mm (--rod)"
     )]
-    NoRoom { from: f64, to: f64 },
+    NoRoom { size: f64, diameter: f64, least: f64, suits: f64 },
 }
 
 /// Tile edge, in diameters, where the rise cannot decide: flat and saddle-shaped
@@ -100,7 +102,11 @@ pub fn fit(
     match (below, above) {
         (_, Some(thinnest)) => Ok(thinnest),
         (Some(largest), None) => plain(&largest, diameter, try_edge),
-        (None, None) => Err(FitError::NoRoom { from: least, to: most }),
+        (None, None) => {
+            // Some 8 plain edges across leave a few dozen tiles after cropping.
+            let suits = most / (8.0 * PLAIN_EDGE);
+            Err(FitError::NoRoom { size: most, diameter, least, suits })
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Frame;
 use super::form::Formed;
-use crate::ids::UnitId;
+use crate::ids::Id;
 use crate::surface::Point3;
 use crate::surface::locate::Locator;
 use serde::Serialize;
@@ -116,19 +116,18 @@ fn contact_middles(frame: &Frame) -> Vec<Point3> {
 /// Deviations of the inner polygons from regular ones: angles in degrees, sides as
 /// part of the mean side of the unit.
 fn regularity(frame: &Frame, middles: &[Point3]) -> (Vec<f64>, Vec<f64>) {
-    use crate::ids::Id;
     let (mut angles, mut sides) = (Vec::new(), Vec::new());
-    for unit in frame.units.ids().map(|u: UnitId| &frame.units[u]) {
+    for unit in &frame.units {
         let corner = |i: usize| middles[unit.contacts[i % unit.contacts.len()].index()];
         let n = unit.contacts.len();
         let regular = PI - 2.0 * PI / n as f64;
         let lengths: Vec<f64> = (0..n).map(|i| (corner(i + 1) - corner(i)).norm()).collect();
         let mean = lengths.iter().sum::<f64>() / n as f64;
-        for i in 0..n {
+        sides.extend(lengths.iter().map(|length| length / mean - 1.0));
+        angles.extend((0..n).map(|i| {
             let (back, ahead) = (corner(i) - corner(i + 1), corner(i + 2) - corner(i + 1));
-            angles.push((back.angle(&ahead) - regular).to_degrees());
-            sides.push(lengths[i] / mean - 1.0);
-        }
+            (back.angle(&ahead) - regular).to_degrees()
+        }));
     }
     (angles, sides)
 }

@@ -26,8 +26,8 @@
 //! run that is killed leaves the working folder, and what it finds there tells the
 //! next run how far it came: without `OUT` there, `old` is put back (killed between 2
 //! and 3); with it, 4 and 5 are done now. Until then the old folder stands whole
-//! under `old`. The standard library has no call that exchanges two folders in one
-//! step, hence the gap between 2 and 3.
+//! under `old`. On Linux, 2 and 3 are one step where the file system can exchange two
+//! folders, and there is no moment without a whole folder in the place.
 //!
 //! While it works in it, a run holds a lock in the working folder. Of two runs with
 //! the same `OUT` the second waits, and its folder stays.
@@ -219,8 +219,10 @@ impl OutputFolder {
         // It may have changed since it was first looked at.
         self.check()?;
         work.write(&self.files)?;
-        work.step_aside()?;
-        work.step_in()?;
+        if !work.swap()? {
+            work.step_aside()?;
+            work.step_in()?;
+        }
         let kept = work.carry_over()?;
         Ok(Written { path: self.path, files: self.files.into_keys().collect(), kept })
     }

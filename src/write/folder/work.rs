@@ -86,6 +86,34 @@ impl Workplace {
         flush_folders(&new).map_err(FolderError::io(&new))
     }
 
+    /// Steps 2 and 3 at once, where the system can: the new folder and the one that
+    /// stands in the place change places. Tells whether it did.
+    ///
+    /// The new folder waits under the name `old` for it: so a run killed before finds
+    /// nothing to do but to remove it, and one killed after finds the old folder there.
+    #[cfg(target_os = "linux")]
+    pub fn swap(&self) -> Result<bool, FolderError> {
+        use rustix::fs::{CWD, RenameFlags, renameat_with};
+        if !matches!(verdict(&self.target)?, Verdict::Ours { .. }) {
+            return Ok(false);
+        }
+        let (new, old) = (self.place("new"), self.place("old"));
+        self.rename(&new, &old)?;
+        let swapped = renameat_with(CWD, &old, CWD, &self.target, RenameFlags::EXCHANGE).is_ok();
+        if swapped {
+            flush_folder(&self.folder).map_err(FolderError::io(&self.folder))?;
+        } else {
+            self.rename(&old, &new)?;
+        }
+        Ok(swapped)
+    }
+
+    /// Other systems have no such call in the standard library.
+    #[cfg(not(target_os = "linux"))]
+    pub fn swap(&self) -> Result<bool, FolderError> {
+        Ok(false)
+    }
+
     /// Step 2: takes away what stands in the place.
     pub fn step_aside(&self) -> Result<(), FolderError> {
         match verdict(&self.target)? {

@@ -1,8 +1,6 @@
 //! Bad input gets a sentence, never a panic, and never a folder.
 
-mod common;
-
-use common::{rodwright, sample, snapshot};
+use crate::run::{rodwright, sample, snapshot};
 use std::path::Path;
 use tempfile::tempdir;
 

@@ -1,8 +1,7 @@
 //! The main job, run as a user runs it.
 
-mod common;
-
-use common::{check_structure, rodwright, sample, snapshot, structure};
+use crate::check::check_structure;
+use crate::run::{rodwright, sample, snapshot, structure};
 use tempfile::tempdir;
 
 const PATTERNS: [&str; 8] = [

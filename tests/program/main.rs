@@ -1,0 +1,6 @@
+//! The program, run as a user runs it.
+
+mod building;
+mod check;
+mod refusals;
+mod run;
