@@ -1,5 +1,6 @@
 //! The cover: what the model looks like, what to buy, how to read the rest.
 
+use super::format::counted;
 use super::legend::{CALIBRATION, RULER_WIDTH, calibration_box, ruler, ruler_down, sign};
 use super::page::{BODY, Flow, HEADING, Leaf, SMALL};
 use super::view::View;
@@ -81,9 +82,16 @@ struct Block {
 struct Line {
     y: f64,
     text: String,
-    heading: bool,
+    style: Style,
     indent: f64,
     sign: Option<bool>,
+}
+
+#[derive(Clone, Copy)]
+enum Style {
+    Heading,
+    Text,
+    Example,
 }
 
 impl Block {
@@ -97,12 +105,20 @@ impl Block {
         }
         let y = self.height + HEADING;
         let text = text.to_owned();
-        self.lines.push(Line { y, text, heading: true, indent: 0.0, sign: None });
+        self.lines.push(Line { y, text, style: Style::Heading, indent: 0.0, sign: None });
         self.height += HEADING * 1.5;
     }
 
     fn text(&mut self, text: &str, width: f64) -> Result<(), SheetError> {
         self.signed(text, width, 0.0, None)
+    }
+
+    /// A line that is not broken, in bold.
+    fn verbatim(&mut self, text: &str) {
+        let y = self.height + BODY;
+        let text = text.to_owned();
+        self.lines.push(Line { y, text, style: Style::Example, indent: 0.0, sign: None });
+        self.height += BODY * LEADING + 0.8;
     }
 
     /// Text with the sign of an over or under mark to its left.
@@ -117,7 +133,7 @@ impl Block {
         {
             let y = self.height + BODY;
             let sign = if i == 0 { sign } else { None };
-            self.lines.push(Line { y, text, heading: false, indent, sign });
+            self.lines.push(Line { y, text, style: Style::Text, indent, sign });
             self.height += BODY * LEADING;
         }
         self.height += 0.8;
@@ -130,10 +146,10 @@ impl Block {
             if let Some(over) = line.sign {
                 sign(out, [x + 4.0, at[1] - BODY * 0.36], "a", over);
             }
-            if line.heading {
-                out.text(at, HEADING, line.text.as_str()).bold();
-            } else {
-                out.text(at, BODY, line.text.as_str());
+            match line.style {
+                Style::Heading => drop(out.text(at, HEADING, line.text.as_str()).bold()),
+                Style::Example => drop(out.text(at, BODY, line.text.as_str()).bold()),
+                Style::Text => drop(out.text(at, BODY, line.text.as_str())),
             }
         }
     }
@@ -165,9 +181,13 @@ fn facts(
     block.heading("The model");
     let [w, d, h] = size(frame).map(|side| units.length(side));
     block.text(&format!("{w} × {d} × {h} {} (wide × deep × high)", units.name()), width)?;
-    let (rods, contacts) = (frame.rods.len(), frame.contacts.len());
-    let feet = frame.supports.len();
-    block.text(&format!("{rods} rods, {contacts} contacts, {feet} feet"), width)?;
+    let rods = counted(frame.rods.len(), "rod");
+    let contacts = counted(frame.contacts.len(), "contact");
+    let feet = match frame.supports.len() {
+        1 => "1 foot".to_owned(),
+        n => format!("{n} feet"),
+    };
+    block.text(&format!("{rods}, {contacts}, {feet}"), width)?;
     let turning = |c: Chirality| frame.units.iter().filter(|u| u.chirality == c).count();
     let (cw, ccw) = (turning(Chirality::Clockwise), turning(Chirality::CounterClockwise));
     let runs = match (cw, ccw) {
@@ -175,7 +195,7 @@ fn facts(
         (_, 0) => "all run clockwise, seen from outside".to_owned(),
         _ => format!("{cw} run clockwise and {ccw} counter-clockwise, seen from outside"),
     };
-    block.text(&format!("{} units; {runs}", frame.units.len()), width)?;
+    block.text(&format!("{}; {runs}", counted(frame.units.len(), "unit")), width)?;
 
     block.heading("To buy");
     let diameter = units.measure(frame.diameter);
@@ -189,13 +209,17 @@ fn facts(
     block.heading("Lengths");
     for class in classes.iter().take(LISTED_CLASSES) {
         let length = units.measure(class.length);
-        block.text(&format!("{}   {length}   {} ×", class.name, class.rods.len()), width)?;
+        let line = format!("class {}: {} × {length}", class.name, class.rods.len());
+        block.text(&line, width)?;
     }
     if let more @ 1.. = classes.len().saturating_sub(LISTED_CLASSES) {
         block.text(&format!("and {more} more: see the cut list"), width)?;
     }
-    for note in &settings.notes {
-        block.text(note, width)?;
+    if !settings.notes.is_empty() {
+        block.heading("Notes");
+        for note in &settings.notes {
+            block.text(note, width)?;
+        }
     }
     Ok(block)
 }
@@ -223,7 +247,7 @@ fn guide(width: f64) -> Result<Block, SheetError> {
     )?;
     block.signed("U, broken line: this rod lies under its partner.", width, indent, Some(false))?;
     block.text("Below the rod, a line for every mark:", width)?;
-    block.text("b  112.4  U  R009 c @ 118.3  41.2°  clock 187.0°  ends", width)?;
+    block.verbatim("b   112.4   U   R009 c @ 118.3   41.2°   clock 187.0°   ends");
     block.text(
         "Mark b, 112.4 from end A; this rod lies under rod R009, at mark c of that rod, 118.3 \
          from its own end A; they cross at 41.2°.",

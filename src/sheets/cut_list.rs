@@ -1,6 +1,6 @@
 //! The cut list: length classes, and which pieces are sawn from which bar.
 
-use super::format::percent;
+use super::format::{counted, percent};
 use super::page::{BODY, Column, Flow, Leaf, SMALL, TABLE, THIN, Table};
 use super::{SheetError, SheetSettings};
 use crate::drawing::font::text_width;
@@ -62,23 +62,21 @@ fn summary(flow: &mut Flow, plan: &CutPlan) -> Result<(), DrawingError> {
     let stock: Vec<String> =
         plan.shopping().iter().map(|(l, n)| format!("{n} × {}", units.measure(*l))).collect();
     flow.paragraph(&format!(
-        "{} from {} bars ({}). {} cuts, each {} wide. {} of rod; waste {}.",
+        "{} from {} ({}). {}, each {} wide. {} of rod; waste {}.",
         counted(plan.pieces(), "piece"),
-        plan.bars.len(),
+        counted(plan.bars.len(), "bar"),
         stock.join(", "),
-        plan.cuts(),
+        counted(plan.cuts(), "saw cut"),
         units.measure(plan.kerf),
         units.total(plan.used()),
         percent(plan.waste()),
     ))?;
-    let bound = plan.bound;
+    let bound = counted(plan.bound, "bar");
     flow.paragraph(&if plan.is_proven() {
-        format!(
-            "No plan needs fewer than {bound} bars of the longest stock: this one is proven best."
-        )
+        format!("No plan needs fewer than {bound} of the longest stock: this one is proven best.")
     } else {
         format!(
-            "No plan needs fewer than {bound} bars of the longest stock; this one has {}. It is \
+            "No plan needs fewer than {bound} of the longest stock; this one has {}. It is \
              not proven best.",
             plan.bars.len()
         )
@@ -87,10 +85,6 @@ fn summary(flow: &mut Flow, plan: &CutPlan) -> Result<(), DrawingError> {
         "Stops are measured from the bar's end to the end of the piece; the saw cuts just beyond. \
          Write its number on end A of each rod as it comes off.",
     )
-}
-
-fn counted(n: usize, noun: &str) -> String {
-    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
 /// Bars that are sawn alike: a picture, the stops, and the rods of each bar. `first`

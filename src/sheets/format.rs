@@ -28,6 +28,14 @@ impl PaperUnits {
         }
     }
 
+    /// The unit in words.
+    pub fn plural(self) -> &'static str {
+        match self {
+            Self::Mm => "mm",
+            Self::Inch => "inches",
+        }
+    }
+
     /// A length without its unit: every length on paper is printed by this.
     pub fn length(self, mm: f64) -> String {
         match self {
@@ -61,6 +69,11 @@ pub(super) fn heading(radians: f64) -> String {
     // 359.96° would be printed as a full turn.
     let degrees = if degrees >= 359.95 { 0.0 } else { degrees };
     format!("{}°", fixed(degrees, 1))
+}
+
+/// A number of things: `1 rod`, `2 rods`.
+pub(super) fn counted(n: usize, noun: &str) -> String {
+    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
 /// A share in per cent.

@@ -17,7 +17,7 @@ pub(super) const RULER_WIDTH: f64 = 8.0;
 /// Half the width of the sign of a mark, mm.
 pub(super) const SIGN_HALF: f64 = 3.4;
 /// Height of the sign of a mark, mm.
-pub(super) const SIGN_HEIGHT: f64 = 4.0;
+pub(super) const SIGN_HEIGHT: f64 = 3.8;
 
 /// The line of a mark where the rod is over its partner: whole.
 pub(super) const OVER_TICK: Stroke = Stroke::new(0.35);
@@ -73,9 +73,7 @@ fn ruler_items(room: f64, units: PaperUnits) -> Vec<Item> {
         PaperUnits::Mm => (10.0, 10),
         PaperUnits::Inch => (25.4, 8),
     };
-    let figures = ((room.min(RULER) - 4.0) / figure).floor() as usize;
-    // Room for all 200 mm where the paper has just that.
-    let figures = if room >= RULER { (RULER / figure).floor() as usize } else { figures };
+    let figures = (room.min(RULER) / figure).floor() as usize;
     let mut items = Vec::new();
     let end = figures as f64 * figure;
     items.line([0.0, 0.0], [end, 0.0], THIN);
@@ -88,17 +86,13 @@ fn ruler_items(room: f64, units: PaperUnits) -> Vec<Item> {
         };
         items.line([x, 0.0], [x, length], THIN);
         if k % parts == 0 {
-            let label = match units {
-                PaperUnits::Mm => format!("{}", (k / parts) * 10),
-                PaperUnits::Inch => format!("{}", k / parts),
-            };
-            let last = k == figures * parts;
-            let text = if last { format!("{label} {}", units.name()) } else { label };
-            // The first and the last figure stay within the ruler's length.
-            let label = items.text([x, 3.5 + SMALL], SMALL, text);
+            // The first figure names the unit; it and the last one stay within the ends.
+            let name = if k == 0 { format!(" {}", units.name()) } else { String::new() };
+            let step = if units == PaperUnits::Mm { 10 } else { 1 };
+            let label = items.text([x, 3.5 + SMALL], SMALL, format!("{}{name}", k / parts * step));
             match k {
                 0 => {}
-                _ if last => drop(label.end()),
+                _ if k == figures * parts => drop(label.end()),
                 _ => drop(label.middle()),
             }
         }
@@ -115,7 +109,7 @@ mod tests {
     fn rulers_are_true_and_as_long_as_fits() {
         for (room, units, end) in [
             (300.0, PaperUnits::Mm, 200.0),
-            (190.0, PaperUnits::Mm, 180.0),
+            (188.0, PaperUnits::Mm, 180.0),
             (300.0, PaperUnits::Inch, 7.0 * 25.4),
             (190.0, PaperUnits::Inch, 7.0 * 25.4),
         ] {

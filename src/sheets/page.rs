@@ -29,7 +29,7 @@ pub(super) const SMALLEST: f64 = 6.0 * 25.4 / 72.0;
 /// Gap between the columns of a table, mm.
 const GUTTER: f64 = 3.5;
 /// Height of a table line in font sizes.
-const TABLE_LEADING: f64 = 1.45;
+const TABLE_LEADING: f64 = 1.55;
 /// Thin lines.
 pub(super) const THIN: Stroke = Stroke::new(0.15);
 /// Faint lines between the rows of a table.
@@ -109,7 +109,7 @@ fn title_block(
 
     let scale = leaf.scale.as_ref().map_or(String::new(), |s| format!("scale {s} · "));
     let units = settings.units;
-    let facts = format!("rod Ø {} · {scale}lengths in {}", units.measure(diameter), units.name());
+    let facts = format!("rod Ø {} · {scale}lengths in {}", units.measure(diameter), units.plural());
     let room = area.width() - text_width(&facts, BODY, Weight::Regular)? - 5.0;
     paper.text([left, top + 9.0], BODY, elide(&leaf.title, BODY, Weight::Regular, room)?);
     paper.text([right, top + 9.0], BODY, facts).end();
@@ -251,7 +251,7 @@ impl<'a> Flow<'a> {
                 }
                 self.cells(table, &grid, cells, Weight::Regular);
             }
-            let y = self.y + 0.2;
+            let y = self.y;
             let [left, right] = [self.area().min[0], self.area().max[0]];
             self.page().line([left, y], [right, y], FAINT);
         }
@@ -262,13 +262,13 @@ impl<'a> Flow<'a> {
     fn head(&mut self, table: &Table, grid: &Grid) {
         let heads: Vec<String> = table.columns.iter().map(|c| c.head.to_owned()).collect();
         self.cells(table, grid, &heads, Weight::Bold);
-        let y = self.y + 0.2;
+        let y = self.y;
         let [left, right] = [self.area().min[0], self.area().max[0]];
         self.page().line([left, y], [right, y], THIN);
     }
 
     fn cells(&mut self, table: &Table, grid: &Grid, cells: &[String], weight: Weight) {
-        let y = self.y + grid.size * 1.05;
+        let y = self.y + grid.size * 1.15;
         for (k, text) in cells.iter().enumerate().filter(|(_, t)| !t.is_empty()) {
             let anchor = table.columns[k].anchor;
             let x = match anchor {

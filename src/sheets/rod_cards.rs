@@ -4,7 +4,7 @@ use super::format::{angle, heading};
 use super::page::{BODY, Flow, Leaf, SMALL, TABLE, THIN};
 use super::strip::Strip;
 use super::{PaperUnits, SheetError, SheetSettings};
-use crate::drawing::font::{LEADING, text_width};
+use crate::drawing::font::{LEADING, elide, text_width};
 use crate::drawing::{Anchor, Color, Draw, DrawingError, Item, Placement, Stroke, Weight};
 use crate::frame::{End, Frame};
 use crate::ids::RodId;
@@ -12,13 +12,13 @@ use crate::shop::{Foot, LengthClasses, Mark, classes, feet, marks};
 use std::collections::BTreeMap;
 
 /// Font size of the rod's number, mm.
-const NUMBER: f64 = 7.5;
+const NUMBER: f64 = 7.2;
 /// Height of the line with number and length, mm.
-const HEAD: f64 = 9.0;
+const HEAD: f64 = 8.0;
 /// Height of the line of a mark, mm.
-const LINE: f64 = BODY * 1.3;
+const LINE: f64 = BODY * LEADING;
 /// Space below a card, down to the line that parts it from the next, mm.
-const BELOW: f64 = 2.0;
+const BELOW: f64 = 1.6;
 /// Cards at least so wide have the foot beside the marks, mm.
 const FOOT_BESIDE: f64 = 165.0;
 
@@ -69,7 +69,7 @@ impl<'a> Book<'a> {
         self.head(&mut items, rod, &strip)?;
         let mut y = HEAD;
         strip.draw(&mut items, [0.0, y], &marks, self.units)?;
-        y += strip.height() + 1.5;
+        y += strip.height() + 1.2;
         let top = y;
         self.lines(&mut items, y, &marks)?;
         y += LINE * marks.len() as f64;
@@ -97,9 +97,11 @@ impl<'a> Book<'a> {
         x += text_width(&cut, 5.0, Weight::Bold)? + 5.0;
         let same = class.rods.len();
         let others = if same == 1 { "alone".to_owned() } else { format!("1 of {same}") };
-        items.text([x, base], BODY, format!("class {} ({others})", class.name));
-        let scale =
-            if strip.is_broken() { "strip broken: measure by the figures" } else { "strip 1:1" };
+        let class = format!("class {} ({others})", class.name);
+        x += text_width(&class, BODY, Weight::Regular)? + 3.0;
+        items.text([x - 3.0, base], BODY, class).end();
+        let scale = if strip.is_broken() { "strip broken: use the figures" } else { "strip 1:1" };
+        let scale = elide(scale, SMALL, Weight::Regular, self.width - x)?;
         items.text([self.width, base], SMALL, scale).end();
         Ok(())
     }
@@ -109,7 +111,7 @@ impl<'a> Book<'a> {
         let units = self.units;
         // Left ends of words and right ends of figures, mm.
         let [letter, at, side, partner, crossing, clock, ending] =
-            [1.0, 22.0, 27.0, 34.0, 86.0, 112.0, 115.0];
+            [1.0, 22.0, 27.0, 34.0, 80.0, 105.0, 108.0];
         for (i, mark) in marks.iter().enumerate() {
             let y = top + BODY + LINE * i as f64;
             items.text([letter, y], BODY, mark.letter.as_str()).bold();
@@ -145,6 +147,3 @@ impl<'a> Book<'a> {
         feet.iter().flat_map(lines).collect()
     }
 }
-
-/// Lines of a card are this far apart, at least, for the text to stay clear.
-const _: () = assert!(LINE >= BODY * LEADING);

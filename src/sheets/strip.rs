@@ -16,7 +16,7 @@ const TRIANGLE: f64 = 4.0;
 /// Thicker rods are drawn no wider than this, mm: only their length is measured.
 const WIDEST: f64 = 10.0;
 /// Between the rod and the sign of a mark, mm.
-const LEADER: f64 = 2.6;
+const LEADER: f64 = 2.3;
 /// Least distance of the middles of two signs on one side, mm.
 const APART: f64 = 2.0 * SIGN_HALF + 0.6;
 /// Half the gap in the picture of a rod that is broken, mm.

@@ -22,6 +22,8 @@ const BELOW: f64 = 15.0;
 const BAR: f64 = 100.0;
 /// How far the cross of a foot sticks out of its circle, mm.
 const CROSS: f64 = 3.0;
+/// Font size of the number of a foot, mm.
+const NUMBER: f64 = 4.0;
 /// Length of the arrow that shows where a rod heads, mm.
 const ARROW: f64 = 12.0;
 /// Half the size of the cross at the model's middle, mm.
@@ -162,14 +164,15 @@ impl FootMap {
         let feet = map.layer(FEET);
         for foot in &self.feet {
             draw_foot(feet, foot, at(foot), radius, small);
-            taken.push(Rect::new(at(foot), [0.0; 2]).inset(-radius.max(1.0)));
+            taken.push(Rect::new(at(foot), [0.0; 2]).inset(-reach(radius, small)));
             taken.push(arrow_box(foot, at(foot), radius, small));
         }
         if !self.feet.is_empty() {
             self.draw_middle(&mut map, n, taken)?;
         }
         for foot in &self.feet {
-            let size = if small { SMALL } else { BODY };
+            let size = if small { SMALL } else { NUMBER };
+            let radius = reach(radius, small);
             if let Some(text) = number(foot, at(foot), radius, size, taken, numbers)? {
                 taken.push(text.extent()?);
                 map.layer(NUMBERS).push(text);
@@ -211,11 +214,16 @@ impl FootMap {
 fn draw_foot(out: &mut impl Draw, foot: &Foot, [x, y]: Point, radius: f64, small: bool) {
     let pen = Stroke::new(0.2);
     out.circle([x, y], radius, Stroke::new(0.25));
-    let reach = radius + if small { 1.0 } else { CROSS };
+    let reach = reach(radius, small);
     out.line([x - reach, y], [x + reach, y], pen);
     out.line([x, y - reach], [x, y + reach], pen);
     let (from, to) = arrow(foot, [x, y], radius, small);
     out.arrow(from, to, if small { 1.6 } else { 2.6 }, Stroke::new(0.3));
+}
+
+/// Half the size of the cross of a foot, mm.
+fn reach(radius: f64, small: bool) -> f64 {
+    radius + if small { 1.0 } else { CROSS }
 }
 
 /// From the circle on, the way the rod heads; y down.
@@ -253,7 +261,7 @@ fn number(
             let mut items: Vec<Item> = Vec::new();
             let text = items.text([0.0, 0.0], size, foot.rod.to_string()).middle().vcenter();
             let half = text.extent()?.size().map(|s| s / 2.0);
-            let reach = radius + 1.5 + step + cos.abs() * half[0] + sin.abs() * half[1];
+            let reach = radius + 0.6 + step + cos.abs() * half[0] + sin.abs() * half[1];
             text.at = [text.at[0] + x + cos * reach, text.at[1] + y - sin * reach];
             let extent = text.extent()?;
             if !taken.iter().any(|t| t.overlaps(&extent)) {

@@ -23,6 +23,10 @@ const MANY_RODS: usize = 1500;
 const THINNEST: f64 = 0.3;
 /// Rods thicker than this on paper are drawn with an outline, mm.
 const OUTLINED: f64 = 1.2;
+/// Width of that outline, mm.
+const OUTLINE: f64 = 0.25;
+/// How far pieces of such a rod lap over each other, mm: no seam shows.
+const LAP: f64 = 0.1;
 /// How light the farthest rods are, 0 black to 255 white.
 const FARTHEST: f64 = 150.0;
 /// Scales that read well, and ten times, a hundred times … as small.
@@ -92,7 +96,7 @@ impl View {
             };
             let level = (FARTHEST * (1.0 - near)).round() as u8;
             let line = piece.ends.map(|p| place(self.project(&p)));
-            rod_piece(out, line, width, Color::grey(level));
+            rod_piece(out, line, piece.open, width, Color::grey(level));
         }
         n
     }
@@ -114,7 +118,8 @@ impl View {
             let (from, to) = ((s - reach).max(done), (s + reach).min(next));
             self.free(frame, rod, [done, from], longest, &mut pieces);
             let ends = [r.axis.at(from), r.axis.at(to)];
-            pieces.push(Piece { ends, depth: self.depth(&r.axis.at(s)) });
+            let open = [from <= 0.0, to >= length];
+            pieces.push(Piece { ends, open, depth: self.depth(&r.axis.at(s)) });
             done = to;
         }
         self.free(frame, rod, [done, length], longest, &mut pieces);
@@ -136,7 +141,9 @@ impl View {
         let at = |k: usize| from + (to - from) * k as f64 / count as f64;
         for k in 0..count {
             let ends = [axis.at(at(k)), axis.at(at(k + 1))];
-            out.push(Piece { ends, depth: self.depth(&nalgebra::center(&ends[0], &ends[1])) });
+            let open = [at(k) <= 0.0, at(k + 1) >= axis.length()];
+            let depth = self.depth(&nalgebra::center(&ends[0], &ends[1]));
+            out.push(Piece { ends, open, depth });
         }
     }
 }
@@ -144,20 +151,37 @@ impl View {
 /// A part of a rod and how near it is.
 struct Piece {
     ends: [Point3; 2],
+    /// Which of the two are ends of the rod; at the others another piece follows.
+    open: [bool; 2],
     depth: f64,
 }
 
-fn rod_piece(out: &mut impl Draw, [a, b]: [Point; 2], width: f64, color: Color) {
+fn rod_piece(out: &mut impl Draw, [a, b]: [Point; 2], open: [bool; 2], width: f64, color: Color) {
     let edge = (width * 0.4).clamp(0.25, 0.8);
     out.line(a, b, Stroke::new(width + 2.0 * edge).color(Color::WHITE));
-    // Ends that stick out a little close the joints between pieces.
-    let line = Stroke::new(width).color(color).cap(Cap::Round);
-    if width > OUTLINED {
-        out.line(a, b, Stroke { cap: Cap::Butt, ..line });
-        out.line(a, b, Stroke::new(width - 0.5).color(Color::PALE_GREY));
-    } else {
-        out.line(a, b, line);
+    let line = Stroke::new(width).color(color);
+    if width <= OUTLINED {
+        // Round ends stick out a little and close the joints between pieces.
+        out.line(a, b, line.cap(Cap::Round));
+        return;
     }
+    // A dark line and a light one within it: the rest is the outline. The light one
+    // is shorter at the rod's ends, and laps over the joints elsewhere.
+    let [c, d] = stretched([a, b], open.map(|o| if o { 0.0 } else { LAP }));
+    out.line(c, d, line);
+    let [c, d] = stretched([a, b], open.map(|o| if o { -OUTLINE } else { LAP }));
+    out.line(c, d, Stroke::new(width - 2.0 * OUTLINE).color(Color::PALE_GREY));
+}
+
+/// The line made longer by so much at each end (shorter where negative).
+fn stretched([a, b]: [Point; 2], by: [f64; 2]) -> [Point; 2] {
+    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+    let length = dx.hypot(dy);
+    if length <= 2.0 * OUTLINE {
+        return [a, b];
+    }
+    let (x, y) = (dx / length, dy / length);
+    [[a[0] - x * by[0], a[1] - y * by[0]], [b[0] + x * by[1], b[1] + y * by[1]]]
 }
 
 /// The smallest n of a round scale 1:n that is at least `ratio`.

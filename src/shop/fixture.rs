@@ -10,15 +10,13 @@ use std::f64::consts::TAU;
 
 /// Radius of the hole, mm.
 const RADIUS: f64 = 40.0;
-/// Height of the unit over the ground, mm.
-const HEIGHT: f64 = 25.0;
 /// Rod left beyond the last contact, at least, mm.
 const OVERHANG: f64 = 6.0;
 
 /// `n` rods in a closed circuit, each with end A on the ground and end B on the next
 /// rod; cut lengths are multiples of half a mm.
 pub(crate) fn circuit(n: usize, diameter: f64) -> Frame {
-    let mut axes: IdVec<RodId, Axis> = (0..n).map(|i| tangent(i, n)).collect();
+    let mut axes: IdVec<RodId, Axis> = (0..n).map(|i| tangent(i, n, 2.0 * diameter)).collect();
     let id = |i: usize| RodId::new(i % n);
     let joints: IdVec<ContactId, Joint> = (0..n)
         .map(|i| Joint { over: id(i), under: id(i + 1), outward: Vector3::z(), gap: diameter })
@@ -34,7 +32,7 @@ pub(crate) fn circuit(n: usize, diameter: f64) -> Frame {
     let supports =
         rods.enumerate().map(|(rod, r)| Support { rod, end: End::A, point: r.axis.a }).collect();
     let unit = Unit {
-        center: SurfacePoint { position: [0.0, 0.0, HEIGHT].into(), normal: Vector3::z() },
+        center: SurfacePoint { position: [0.0, 0.0, 2.0 * diameter].into(), normal: Vector3::z() },
         chirality: Chirality::CounterClockwise,
         rods: rods.ids().collect(),
         contacts: contacts.ids().collect(),
@@ -50,9 +48,9 @@ pub(crate) fn circuit(n: usize, diameter: f64) -> Frame {
     }
 }
 
-fn tangent(i: usize, n: usize) -> Axis {
+fn tangent(i: usize, n: usize, height: f64) -> Axis {
     let (sin, cos) = (TAU * i as f64 / n as f64).sin_cos();
-    let middle = Vector3::new(cos * RADIUS, sin * RADIUS, HEIGHT);
+    let middle = Vector3::new(cos * RADIUS, sin * RADIUS, height);
     let along = Vector3::new(-sin, cos, 0.02) * RADIUS;
     Axis { a: (middle - along).into(), b: (middle + along).into() }
 }
