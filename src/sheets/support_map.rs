@@ -129,14 +129,14 @@ impl FootMap {
     }
 
     /// Where a point of the ground lies on paper, mm, y down.
-    pub fn place(&self, x: f64, y: f64, n: f64) -> Point {
+    pub fn place(x: f64, y: f64, n: f64) -> Point {
         [x / n, -y / n]
     }
 
     /// The part of the paper that the map takes.
     pub fn extent(&self, n: f64) -> Rect {
-        let feet = self.feet.iter().map(|f| self.place(f.x, f.y, n));
-        let middle = self.place(self.middle[0], self.middle[1], n);
+        let feet = self.feet.iter().map(|f| Self::place(f.x, f.y, n));
+        let middle = Self::place(self.middle[0], self.middle[1], n);
         let around = Rect::around(feet.chain([middle])).unwrap_or(Rect::new(middle, [0.0; 2]));
         around.inset(-AROUND)
     }
@@ -150,7 +150,7 @@ impl FootMap {
         numbers: Numbers,
     ) -> Result<Drawing, DrawingError> {
         let mut map = Drawing::new(1.0, 1.0);
-        let at = |f: &Foot| self.place(f.x, f.y, n);
+        let at = |f: &Foot| Self::place(f.x, f.y, n);
         let chord = Stroke::new(0.15).color(Color::GREY).dash(Dash::DASH_DOT);
         let guides = map.layer(GUIDES);
         for (i, foot) in self.feet.iter().enumerate() {
@@ -188,7 +188,7 @@ impl FootMap {
         n: f64,
         taken: &mut Vec<Rect>,
     ) -> Result<(), DrawingError> {
-        let [x, y] = self.place(self.middle[0], self.middle[1], n);
+        let [x, y] = Self::place(self.middle[0], self.middle[1], n);
         let length = if n > 1.0 { AXES / 2.0 } else { AXES };
         let cross = if n > 1.0 { MIDDLE / 2.0 } else { MIDDLE };
         let pen = Stroke::new(0.25);

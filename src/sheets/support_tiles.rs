@@ -11,11 +11,14 @@ use super::{SheetError, SheetSettings, page};
 use crate::drawing::{Color, Draw, Drawing, DrawingError, Item, Placement, Point, Rect, Stroke};
 use crate::drawing::{Text, clip};
 use crate::frame::{End, Frame};
+use crate::shop::Foot;
 
 /// How far neighbouring tiles overlap, mm.
 const OVERLAP: f64 = 10.0;
 /// Room above a tile for its name, mm.
 const NAME: f64 = 7.0;
+/// How far texts stay from the edge of a tile, mm.
+const INSIDE: f64 = 0.8;
 /// Half the size of a crop mark, mm.
 const CROP: f64 = 4.0;
 /// More tiles than this are not printed: nobody joins so many.
@@ -50,7 +53,7 @@ pub(super) fn tiles(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Leaf>
     let full = map.draw(1.0, &mut Vec::new(), Numbers::All)?;
     let mut leaves = Vec::new();
     for tile in tiling.used(&full) {
-        leaves.push(tiling.leaf(tile, &full, settings)?);
+        leaves.push(tiling.leaf(tile, &full, &map.feet, settings)?);
     }
     Ok(leaves)
 }
@@ -72,7 +75,7 @@ fn explained(map: &FootMap, tiling: Option<&Tiling>, settings: &SheetSettings) -
 
 fn table(map: &FootMap, settings: &SheetSettings) -> Table {
     let units = settings.units;
-    let row = |f: &crate::shop::Foot| {
+    let row = |f: &Foot| {
         let (next, chord) = match f.next {
             Some(next) => (next.rod.to_string(), units.length(next.chord)),
             None => (String::new(), String::new()),
@@ -196,6 +199,7 @@ impl Tiling {
         &self,
         tile: Place,
         map: &Drawing,
+        feet: &[Foot],
         settings: &SheetSettings,
     ) -> Result<Leaf, DrawingError> {
         let (rect, area) = (self.rect(tile), tile_area(settings));
@@ -205,7 +209,7 @@ impl Tiling {
         for layer in &map.layers {
             let mut items = clip(&layer.items, rect);
             if layer.name == NUMBERS {
-                items = whole_texts(&layer.items, rect)?;
+                items = whole_texts(&layer.items, feet, rect)?;
             }
             drawing.place(&items, &place);
         }
@@ -284,15 +288,19 @@ fn corners(r: &Rect) -> [Point; 4] {
     [r.min, [r.max[0], r.min[1]], r.max, [r.min[0], r.max[1]]]
 }
 
-/// The texts of which at least a half is inside, moved so that all of each is.
-fn whole_texts(items: &[Item], rect: Rect) -> Result<Vec<Item>, DrawingError> {
+/// The texts of a tile, moved so that all of each is on it: the numbers of the feet
+/// that stand on it, and other words that lie mostly on it.
+fn whole_texts(items: &[Item], feet: &[Foot], rect: Rect) -> Result<Vec<Item>, DrawingError> {
     let mut kept = Vec::new();
     for item in items {
         let Item::Text(text) = item else { continue };
         let extent = text.extent()?;
-        if rect.contains(extent.center()) {
+        let foot = feet.iter().find(|f| f.rod.to_string() == text.string);
+        let about = foot.map_or(extent.center(), |f| FootMap::place(f.x, f.y, 1.0));
+        if rect.contains(about) {
             let shift = [0, 1].map(|i| {
-                (rect.min[i] - extent.min[i]).max(0.0) + (rect.max[i] - extent.max[i]).min(0.0)
+                let (low, high) = (rect.min[i] + INSIDE, rect.max[i] - INSIDE);
+                (low - extent.min[i]).max(0.0) + (high - extent.max[i]).min(0.0)
             });
             let at = [text.at[0] + shift[0], text.at[1] + shift[1]];
             kept.push(Text { at, ..text.clone() }.into());
