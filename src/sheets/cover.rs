@@ -5,7 +5,7 @@ use super::legend::{CALIBRATION, RULER_WIDTH, calibration_box, ruler, ruler_down
 use super::page::{BODY, Flow, HEADING, Leaf, SMALL};
 use super::view::View;
 use super::{SheetError, SheetSettings};
-use crate::drawing::font::{LEADING, wrap};
+use crate::drawing::font::{LEADING, fit_size, wrap};
 use crate::drawing::{Draw, Point, Rect, Weight};
 use crate::frame::{Chirality, Frame};
 use crate::shop::{CutPlan, classes};
@@ -91,7 +91,8 @@ struct Line {
 enum Style {
     Heading,
     Text,
-    Example,
+    /// In bold, of this size.
+    Example(f64),
 }
 
 impl Block {
@@ -114,11 +115,13 @@ impl Block {
     }
 
     /// A line that is not broken, in bold.
-    fn verbatim(&mut self, text: &str) {
+    fn verbatim(&mut self, text: &str, width: f64) -> Result<(), SheetError> {
         let y = self.height + BODY;
         let text = text.to_owned();
-        self.lines.push(Line { y, text, style: Style::Example, indent: 0.0, sign: None });
+        let style = Style::Example(fit_size(&text, BODY, Weight::Bold, width)?);
+        self.lines.push(Line { y, text, style, indent: 0.0, sign: None });
         self.height += BODY * LEADING + 0.8;
+        Ok(())
     }
 
     /// Text with the sign of an over or under mark to its left.
@@ -148,7 +151,7 @@ impl Block {
             }
             match line.style {
                 Style::Heading => drop(out.text(at, HEADING, line.text.as_str()).bold()),
-                Style::Example => drop(out.text(at, BODY, line.text.as_str()).bold()),
+                Style::Example(size) => drop(out.text(at, size, line.text.as_str()).bold()),
                 Style::Text => drop(out.text(at, BODY, line.text.as_str())),
             }
         }
@@ -247,7 +250,7 @@ fn guide(width: f64) -> Result<Block, SheetError> {
     )?;
     block.signed("U, broken line: this rod lies under its partner.", width, indent, Some(false))?;
     block.text("Below the rod, a line for every mark:", width)?;
-    block.verbatim("b   112.4   U   R009 c @ 118.3   41.2°   clock 187.0°   ends");
+    block.verbatim("b   112.4   U   R009 c @ 118.3   41.2°   clock 187.0°   ends", width)?;
     block.text(
         "Mark b, 112.4 from end A; this rod lies under rod R009, at mark c of that rod, 118.3 \
          from its own end A; they cross at 41.2°.",

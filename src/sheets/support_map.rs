@@ -133,12 +133,16 @@ impl FootMap {
         [x / n, -y / n]
     }
 
-    /// The part of the paper that the map takes.
+    /// The part of the paper that the map takes, with room for arrows and numbers.
     pub fn extent(&self, n: f64) -> Rect {
+        self.core(n).inset(-AROUND)
+    }
+
+    /// The smallest rectangle round all feet and the middle, mm on paper.
+    pub fn core(&self, n: f64) -> Rect {
         let feet = self.feet.iter().map(|f| Self::place(f.x, f.y, n));
         let middle = Self::place(self.middle[0], self.middle[1], n);
-        let around = Rect::around(feet.chain([middle])).unwrap_or(Rect::new(middle, [0.0; 2]));
-        around.inset(-AROUND)
+        Rect::around(feet.chain([middle])).unwrap_or(Rect::new(middle, [0.0; 2]))
     }
 
     /// The map at 1:n in paper coordinates. `taken` are places that numbers keep clear

@@ -8,7 +8,9 @@ use super::format::{angle, heading};
 use super::page::{BODY, Column, Flow, Leaf, SMALL, THIN, Table};
 use super::support_map::{FEET, FootMap, NO_FEET, NUMBERS, Numbers};
 use super::{SheetError, SheetSettings, page};
-use crate::drawing::{Color, Draw, Drawing, DrawingError, Item, Placement, Point, Rect, Stroke};
+use crate::drawing::{
+    Anchor, Color, Draw, Drawing, DrawingError, Item, Placement, Point, Rect, Stroke,
+};
 use crate::drawing::{Text, clip};
 use crate::frame::{End, Frame};
 use crate::shop::Foot;
@@ -23,6 +25,8 @@ const INSIDE: f64 = 0.8;
 const CROP: f64 = 4.0;
 /// More tiles than this are not printed: nobody joins so many.
 const MOST_TILES: usize = 150;
+/// Room round the outermost feet on the map of the tiles, mm: for arrows and numbers.
+const AROUND_SMALL: f64 = 14.0;
 /// Largest part of a page that the map of the tiles takes.
 const OVERVIEW_SHARE: f64 = 0.5;
 
@@ -120,24 +124,34 @@ fn small_map(
     tiling: Option<&Tiling>,
     room: Rect,
 ) -> Result<f64, DrawingError> {
-    let full = tiling.map_or_else(|| map.extent(1.0), Tiling::extent);
-    let n = (0..2).map(|i| full.size()[i] / room.size()[i]).fold(1.0, f64::max);
-    let on_paper = Rect { min: full.min.map(|c| c / n), max: full.max.map(|c| c / n) };
+    let ratio = |what: Rect, margin: f64| {
+        (0..2).map(|i| what.size()[i] / (room.size()[i] - 2.0 * margin)).fold(0.0, f64::max)
+    };
+    let grid = tiling.map(Tiling::extent);
+    let n = grid.map_or(0.0, |g| ratio(g, 0.0)).max(ratio(map.core(1.0), AROUND_SMALL)).max(1.0);
+    let mut on_paper = map.core(n).inset(-AROUND_SMALL);
+    if let Some(g) = grid {
+        on_paper = on_paper.union(&Rect { min: g.min.map(|c| c / n), max: g.max.map(|c| c / n) });
+    }
     let height = on_paper.height();
     let offset = [room.center()[0] - on_paper.center()[0], room.min[1] - on_paper.min[1]];
     let place = Placement::at(offset);
+    let used = match tiling {
+        Some(tiling) => tiling.used(&map.draw(1.0, &mut Vec::new(), Numbers::All)?),
+        None => Vec::new(),
+    };
     let mut items: Vec<Item> = Vec::new();
-    let mut taken = Vec::new();
     if let Some(tiling) = tiling {
-        let used = tiling.used(&map.draw(1.0, &mut Vec::new(), Numbers::All)?);
-        tiling.draw_grid(&mut items, n, &used, &mut taken)?;
+        tiling.draw_grid(&mut items, n, &used);
+    }
+    // Always in small letters and arrows, even if the scale is 1:1.
+    let mut taken = Vec::new();
+    let small = map.draw(n.max(1.0 + f64::EPSILON), &mut taken, Numbers::WhereFree)?;
+    items.extend(small.items().cloned());
+    if let Some(tiling) = tiling {
+        tiling.draw_names(&mut items, n, &used, &taken)?;
     }
     out.place(&items, &place);
-    // Always in small letters and arrows, even if the scale is 1:1.
-    let small = map.draw(n.max(1.0 + f64::EPSILON), &mut taken, Numbers::WhereFree)?;
-    for layer in &small.layers {
-        out.place(&layer.items, &place);
-    }
     Ok(height)
 }
 
@@ -245,27 +259,47 @@ impl Tiling {
         parts.join(" · ")
     }
 
-    /// The tiles at 1:n: blank ones grey, the others with their names.
-    fn draw_grid(
+    /// Where a tile lies on the map at 1:n, to the middle of its overlaps.
+    fn cell(&self, place: Place, n: f64) -> Rect {
+        let rect = self.rect(place).inset(OVERLAP / 2.0);
+        Rect { min: rect.min.map(|c| c / n), max: rect.max.map(|c| c / n) }
+    }
+
+    /// The outlines of the tiles at 1:n; blank tiles are grey.
+    fn draw_grid(&self, out: &mut impl Draw, n: f64, used: &[Place]) {
+        let pen = Stroke::new(0.15).color(Color::GREY);
+        for row in 0..self.count[1] {
+            for column in 0..self.count[0] {
+                let cell = self.cell([column, row], n);
+                if used.contains(&[column, row]) {
+                    out.rect(cell.min, cell.size(), pen);
+                } else {
+                    out.rect(cell.min, cell.size(), pen.fill(Color::PALE_GREY));
+                }
+            }
+        }
+    }
+
+    /// The name of each printed tile in a corner that is free.
+    fn draw_names(
         &self,
         out: &mut impl Draw,
         n: f64,
         used: &[Place],
-        taken: &mut Vec<Rect>,
+        taken: &[Rect],
     ) -> Result<(), DrawingError> {
-        let pen = Stroke::new(0.15).color(Color::GREY);
-        for row in 0..self.count[1] {
-            for column in 0..self.count[0] {
-                // To the middle of the overlaps, where tiles meet.
-                let rect = self.rect([column, row]).inset(OVERLAP / 2.0);
-                let (min, size) = (rect.min.map(|c| c / n), rect.size().map(|c| c / n));
-                if used.contains(&[column, row]) {
-                    out.rect(min, size, pen);
-                    let at = [min[0] + 1.2, min[1] + BODY + 0.6];
-                    let text = out.text(at, BODY, name([column, row])).bold().clone();
-                    taken.push(text.extent()?);
-                } else {
-                    out.rect(min, size, pen.fill(Color::PALE_GREY));
+        for &tile in used {
+            let cell = self.cell(tile, n);
+            let (top, bottom) = (cell.min[1] + BODY + 0.6, cell.max[1] - 1.2);
+            let (left, right) = (cell.min[0] + 1.2, cell.max[0] - 1.2);
+            let corners = [(left, top), (right, top), (left, bottom), (right, bottom)];
+            for (x, y) in corners {
+                let mut text = Text::new([x, y], BODY, name(tile));
+                text.bold().anchor(if x == left { Anchor::Start } else { Anchor::End });
+                let extent = text.extent()?;
+                if !taken.iter().any(|t| t.overlaps(&extent)) {
+                    out.push(text);
+                    break;
                 }
             }
         }

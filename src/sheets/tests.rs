@@ -17,7 +17,8 @@ fn settings(paper: Paper, units: PaperUnits) -> SheetSettings {
 }
 
 fn cut_plan(frame: &Frame) -> CutPlan {
-    let stock = Stock { lengths: vec![1000.0], kerf: 1.0 };
+    let longest = cut_lengths(frame).iter().copied().fold(1000.0, f64::max);
+    let stock = Stock { lengths: vec![longest], kerf: 1.0 };
     cutlist::plan(&cut_lengths(frame), &stock).unwrap()
 }
 
@@ -67,8 +68,9 @@ fn faults(sheet: &Sheet) -> Vec<String> {
 #[test]
 fn texts_stay_on_the_page_and_apart() {
     let circuit = fixture::circuit(5, 8.0);
+    let station = fixture::on_sample("train-station", "6.6.6");
     let small = Paper::Custom { width: 145.0, height: 200.0 };
-    for frame in [&*IGLOO, &circuit] {
+    for frame in [&*IGLOO, &station, &circuit, &huge()] {
         for (paper, units) in [
             (Paper::A4, PaperUnits::Mm),
             (Paper::Letter, PaperUnits::Inch),
@@ -210,8 +212,8 @@ fn a_frame_without_feet_says_so() {
     }));
 }
 
-#[test]
-fn a_huge_footprint_is_drawn_smaller_and_says_so() {
+/// A frame whose feet are too far apart for a map at full size.
+fn huge() -> Frame {
     let mut frame = fixture::circuit(5, 3.0);
     for rod in frame.rods.ids() {
         let axis = &mut frame.rods[rod].axis;
@@ -220,6 +222,12 @@ fn a_huge_footprint_is_drawn_smaller_and_says_so() {
     for support in &mut frame.supports {
         support.point = frame.rods[support.rod].axis.a;
     }
+    frame
+}
+
+#[test]
+fn a_huge_footprint_is_drawn_smaller_and_says_so() {
+    let frame = huge();
     let settings = settings(Paper::A4, PaperUnits::Mm);
     let map = support_map::drawing(&frame, &settings).unwrap();
     assert!(map.width < 5000.0);
