@@ -41,9 +41,8 @@ pub struct Closing {
 pub enum CloseError {
     /// The rods of a contact turned parallel.
     Parallel(ContactId),
-    /// The steps did not settle; the contact that was worst at the end, and its
-    /// error as part of the gap.
-    Diverged { worst: ContactId, error: f64 },
+    /// The steps did not settle; the contacts that were still open.
+    Diverged { open: Vec<ContactId> },
     /// Contacts contradict each other.
     Linear(LinalgError),
 }
@@ -87,13 +86,14 @@ pub fn close(
     let mut last = f64::INFINITY;
     for step in 0..=MAX_STEPS {
         let rows = rows(axes, joints)?;
-        let (worst, error) = worst(&rows, joints);
+        let error = errors(&rows, joints).map(|e| e.1).fold(0.0, worse);
         let stalled = error <= GOOD && error > 0.5 * last;
         if error <= EXACT || stalled {
             return Ok(Closing { steps: step, error });
         }
         if step == MAX_STEPS || error.is_nan() {
-            return Err(CloseError::Diverged { worst, error });
+            let open = errors(&rows, joints).filter(|e| e.1.is_nan() || e.1 > GOOD).map(|e| e.0);
+            return Err(CloseError::Diverged { open: open.collect() });
         }
         last = error;
         values.clear();
@@ -168,15 +168,17 @@ fn rows(
         .collect()
 }
 
-fn worst(rows: &IdVec<ContactId, Row>, joints: &IdVec<ContactId, Joint>) -> (ContactId, f64) {
-    let mut worst = (ContactId::new(0), 0.0f64);
-    for (id, row) in rows.enumerate() {
-        let error = (row.gap - joints[id].gap).abs() / joints[id].gap;
-        if error > worst.1 || error.is_nan() {
-            worst = (id, error);
-        }
-    }
-    worst
+/// The error of every gap, as part of the wanted one.
+fn errors<'a>(
+    rows: &'a IdVec<ContactId, Row>,
+    joints: &'a IdVec<ContactId, Joint>,
+) -> impl Iterator<Item = (ContactId, f64)> + 'a {
+    rows.enumerate().map(|(id, row)| (id, (row.gap - joints[id].gap).abs() / joints[id].gap))
+}
+
+/// The larger of two errors; not a number is the worst of all.
+fn worse(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
 /// Moves the ends by Jᵀ `pull`, shortened where the longest move is too long.

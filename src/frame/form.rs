@@ -14,7 +14,7 @@ use super::{Contact, Dropped, Frame, Rod, Support, Unit};
 use crate::chart::Chart;
 use crate::ids::{ContactId, IdVec, RodId, TileId, UnitId};
 use crate::linalg::LinalgError;
-use crate::pattern::Pattern;
+use crate::pattern::{Pattern, UnitShape};
 use crate::tiling::{Placement, Tiling};
 use nalgebra::Point2;
 use std::collections::{BTreeMap, BTreeSet};
@@ -68,19 +68,20 @@ pub enum FormError {
          {least}. Use smaller units (--unit), thinner rods (--rod) or a larger model (--span)"
     )]
     TooFewUnits { units: usize, least: usize, edge: f64 },
+    /// The units have no room for the rods.
+    #[error(
+        "units of edge {edge:.1} mm are too small for {diameter} mm rods: the contacts of a unit \
+         of {sides} rods would lie {apart:.1} mm apart. Use an edge of at least {least:.1} mm \
+         (--unit), a larger turn (--turn) or thinner rods (--rod)"
+    )]
+    TooTight { edge: f64, diameter: f64, sides: usize, apart: f64, least: f64 },
     /// Too much had to be left out.
     #[error(
-        "{dropped} of {total} units of edge {edge:.1} mm do not work with {diameter} mm rods; \
-         the first: {first}. {advice}"
+        "{dropped} of {total} units of edge {edge:.1} mm do not work with {diameter} mm rods; the \
+         first: {first}. Leave out --unit to let the units be fitted to the rods, or try another \
+         turn (--turn), a shorter overhang (--overhang) or another pattern (--pattern)"
     )]
-    TooManyDropped {
-        dropped: usize,
-        total: usize,
-        edge: f64,
-        diameter: f64,
-        first: String,
-        advice: String,
-    },
+    TooManyDropped { dropped: usize, total: usize, edge: f64, diameter: f64, first: String },
     /// A linear system could not be solved.
     #[error("the contacts could not be closed: {0}")]
     Linear(#[from] LinalgError),
@@ -92,6 +93,10 @@ const LEAST_UNITS: usize = 3;
 /// Largest part of the units that may be left out before the whole is refused.
 /// More, and what remains is not the surface that was asked for.
 const DROPPED_PART: f64 = 0.2;
+
+/// Units are left out one at a time, since each loss relieves its neighbours; of very
+/// many, one more at a time for each so many.
+const AT_ONCE: usize = 40;
 
 /// Least distance between two contacts along a rod, in diameters. Nearer, and
 /// there is no room for the two rods side by side.
@@ -111,6 +116,7 @@ pub fn form(
     settings: &FormSettings,
 ) -> Result<Formed, FormError> {
     let tiling = patch(chart, pattern, placement);
+    require_room(&tiling, placement, settings)?;
     let mut without = BTreeSet::new();
     let mut dropped: Vec<Dropped> = Vec::new();
     let mut total = None;
@@ -121,25 +127,46 @@ pub fn form(
             return Err(FormError::TooFewUnits { units, least, edge: placement.edge });
         }
         let total = *total.get_or_insert(tiles.len());
-        if tiles.len() < LEAST_UNITS || dropped.len() as f64 > DROPPED_PART * total as f64 {
-            return Err(too_many(&dropped, total, placement, settings));
-        }
         let weave = weave(&tiling, &tiles, settings.turn);
-        match attempt(chart, &weave, placement, settings)? {
+        let faults = match attempt(chart, &weave, placement, settings)? {
             Ok(mut formed) => {
                 formed.frame.dropped = dropped;
                 return Ok(formed);
             }
-            Err(faults) => {
-                let (unit, reason) = worst(&faults);
-                let woven = &weave.units[unit];
-                without.insert(woven.tile);
-                let center = chart.lift(placement.apply(woven.center));
-                let center = center.map_or_else(Default::default, |c| c.position);
-                dropped.push(Dropped { center, reason });
-            }
+            Err(faults) => faults,
+        };
+        let failing = cover(&faults);
+        let lost = dropped.len() + failing.len();
+        if lost as f64 > DROPPED_PART * total as f64 || tiles.len() <= LEAST_UNITS {
+            return Err(too_many(lost, total, &failing[0].1, placement, settings));
+        }
+        for (unit, reason) in failing.into_iter().take(1 + lost / AT_ONCE) {
+            let woven = &weave.units[unit];
+            without.insert(woven.tile);
+            let center = chart.lift(placement.apply(woven.center));
+            let center = center.map_or_else(Default::default, |c| c.position);
+            dropped.push(Dropped { center, reason });
         }
     }
+}
+
+/// Refuses units whose contacts lie nearer together than the rods are thick.
+fn require_room(
+    tiling: &Tiling,
+    placement: &Placement,
+    settings: &FormSettings,
+) -> Result<(), FormError> {
+    let (edge, diameter) = (placement.edge, settings.diameter);
+    let sizes: BTreeSet<usize> = tiling.tiles.iter().map(|t| t.corners.len()).collect();
+    for sides in sizes {
+        let shape = UnitShape::new(sides, settings.turn);
+        let side = shape.ending - shape.passing;
+        if side * edge < ENGAGEMENT * diameter {
+            let least = ENGAGEMENT * diameter / side;
+            return Err(FormError::TooTight { edge, diameter, sides, apart: side * edge, least });
+        }
+    }
+    Ok(())
 }
 
 /// The tiles over the whole chart.
@@ -153,35 +180,41 @@ pub fn patch(chart: &impl Chart, pattern: &Pattern, placement: &Placement) -> Ti
 }
 
 fn too_many(
-    dropped: &[Dropped],
+    dropped: usize,
     total: usize,
+    first: &str,
     placement: &Placement,
     settings: &FormSettings,
 ) -> FormError {
     FormError::TooManyDropped {
-        dropped: dropped.len(),
+        dropped,
         total,
         edge: placement.edge,
         diameter: settings.diameter,
-        first: dropped.first().map_or_else(String::new, |d| d.reason.clone()),
-        advice: "Leave out --unit to let the units be fitted to the rods, or try another turn \
-                 (--turn), a shorter overhang (--overhang) or another pattern (--pattern)"
-            .to_string(),
+        first: first.to_string(),
     }
 }
 
-/// The unit with the most faults (of equals the outermost), and its first fault.
-fn worst(faults: &[Fault]) -> (UnitId, String) {
-    let mut counts: BTreeMap<UnitId, usize> = BTreeMap::new();
-    for unit in faults.iter().flat_map(|f| &f.units) {
-        *counts.entry(*unit).or_default() += 1;
+/// Units whose absence would mend all faults, each with the first of its faults: in
+/// turn the unit with the most faults left, of equals the outermost.
+fn cover(faults: &[Fault]) -> Vec<(UnitId, String)> {
+    let mut left: Vec<&Fault> = faults.iter().collect();
+    let mut chosen = Vec::new();
+    while !left.is_empty() {
+        let mut counts: BTreeMap<UnitId, usize> = BTreeMap::new();
+        for unit in left.iter().flat_map(|f| &f.units) {
+            *counts.entry(*unit).or_default() += 1;
+        }
+        let (&unit, _) = counts
+            .iter()
+            .max_by_key(|&(unit, count)| (*count, *unit))
+            .expect("every fault names at least one unit");
+        let (mended, rest): (Vec<_>, Vec<_>) =
+            left.into_iter().partition(|f| f.units.contains(&unit));
+        chosen.push((unit, mended[0].reason.clone()));
+        left = rest;
     }
-    let (&unit, _) = counts
-        .iter()
-        .max_by_key(|&(unit, count)| (*count, *unit))
-        .expect("every fault names at least one unit");
-    let first = faults.iter().find(|f| f.units.contains(&unit));
-    (unit, first.map_or_else(String::new, |f| f.reason.clone()))
+    chosen
 }
 
 /// One try at a frame: the frame, or what is wrong with which units.
@@ -202,8 +235,8 @@ fn attempt(
         Ok(closing) => closing,
         Err(CloseError::Linear(e)) => return Err(e.into()),
         Err(CloseError::Parallel(c)) => return Ok(Err(vec![open_contact(weave, c)])),
-        Err(CloseError::Diverged { worst, .. }) => {
-            return Ok(Err(vec![open_contact(weave, worst)]));
+        Err(CloseError::Diverged { open }) => {
+            return Ok(Err(open.into_iter().map(|c| open_contact(weave, c)).collect()));
         }
     };
     let moves = lifted

@@ -105,7 +105,7 @@ fn sizes_scale_together() {
         command.args(args).assert().success();
         structure(&dir.path().join(out))
     };
-    let small = build("small", &["--round", "0"]);
+    let small = build("small", &["--round", "0", "--span", "600mm"]);
     let large = build("large", &["--round", "0", "--rod", "30mm", "--span", "6m"]);
     let pairs = small["rods"].as_array().unwrap().iter().zip(large["rods"].as_array().unwrap());
     for (s, l) in pairs {

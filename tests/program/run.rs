@@ -4,11 +4,15 @@ use assert_cmd::Command;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::time::Duration;
+
+/// No run of these tests takes more than a few seconds; one that does hangs.
+const LONG_SILENCE: Duration = Duration::from_secs(120);
 
 /// The program, ready to run in a folder.
 pub fn rodwright(folder: &Path) -> Command {
     let mut command = Command::cargo_bin("rodwright").expect("the program is built for tests");
-    command.current_dir(folder).env("NO_COLOR", "1");
+    command.current_dir(folder).env("NO_COLOR", "1").timeout(LONG_SILENCE);
     command
 }
 
