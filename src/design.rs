@@ -111,10 +111,19 @@ pub enum Part {
     Sheets,
     /// support-map.svg, support-map.pdf
     SupportMap,
+    /// pictures/*.svg: the frame from the side and from above.
+    Pictures,
 }
 
-const ALL_PARTS: [Part; 6] =
-    [Part::Structure, Part::Csv, Part::Cutlist, Part::Glb, Part::Sheets, Part::SupportMap];
+const ALL_PARTS: [Part; 7] = [
+    Part::Structure,
+    Part::Csv,
+    Part::Cutlist,
+    Part::Glb,
+    Part::Sheets,
+    Part::SupportMap,
+    Part::Pictures,
+];
 
 /// A complete, checked design. Lengths in mm, angles in radians.
 #[derive(Clone, Debug)]

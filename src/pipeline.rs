@@ -7,7 +7,7 @@ use crate::drawing::{DrawingError, svg};
 use crate::frame::fit::{Fit, FitError, fit};
 use crate::frame::form::{FormError, FormSettings, Formed, form, median_rise};
 use crate::frame::measure::{Measures, measure};
-use crate::sheets::{SheetError, SheetSettings, sheets, support_map};
+use crate::sheets::{SheetError, SheetSettings, pictures, sheets, support_map};
 use crate::shop::cutlist::{CutError, CutPlan, Stock, plan};
 use crate::shop::lengths::{classes, cut_lengths};
 use crate::surface::locate::Locator;
@@ -120,6 +120,11 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, BuildErr
     if design.wants(Part::SupportMap) {
         add_support_map(design, model, &mut files)?;
     }
+    if design.wants(Part::Pictures) {
+        for (name, picture) in pictures(frame) {
+            files.add(format!("pictures/{name}.svg"), svg::render(&picture)?);
+        }
+    }
     Ok(files.0)
 }
 
@@ -208,7 +213,7 @@ fn report(design: &Design, model: &Model) -> Report {
 }
 
 fn add_sheets(design: &Design, model: &Model, files: &mut Files) -> Result<(), BuildError> {
-    let sheets = sheets(&model.formed.frame, &model.plan, &sheet_settings(design))?;
+    let sheets = sheets(&model.formed.frame, &model.plan, &sheet_settings(design, model))?;
     for sheet in &sheets {
         files.add(format!("sheets/{}.svg", sheet.stem), svg::render(&sheet.page.drawing)?);
     }
@@ -218,7 +223,7 @@ fn add_sheets(design: &Design, model: &Model, files: &mut Files) -> Result<(), B
 }
 
 fn add_support_map(design: &Design, model: &Model, files: &mut Files) -> Result<(), BuildError> {
-    let (frame, settings) = (&model.formed.frame, sheet_settings(design));
+    let (frame, settings) = (&model.formed.frame, sheet_settings(design, model));
     files.add("support-map.svg", svg::render(&support_map::drawing(frame, &settings)?)?);
     let sheets = support_map::pages(frame, &settings)?;
     let pages: Vec<Page> = sheets.into_iter().map(|s| s.page).collect();
@@ -226,12 +231,15 @@ fn add_support_map(design: &Design, model: &Model, files: &mut Files) -> Result<
     Ok(())
 }
 
-fn sheet_settings(design: &Design) -> SheetSettings {
+fn sheet_settings(design: &Design, model: &Model) -> SheetSettings {
+    let pattern = format!("pattern {}: {}", design.pattern.name, design.pattern.summary);
+    let edge = design.units.measure(model.fit.edge);
+    let unit = format!("rods turned by {:.1}°, tile edge {edge}", design.turn.to_degrees());
     SheetSettings {
         model: design.name(),
         paper: design.paper,
         units: design.units,
-        notes: vec![format!("pattern {}", design.pattern.name)],
+        notes: vec![pattern, unit],
     }
 }
 

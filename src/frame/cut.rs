@@ -3,7 +3,7 @@
 
 use super::axis::{Axis, Crossing};
 use super::close::Joint;
-use super::form::Fault;
+use super::fault::Fault;
 use super::weave::Weave;
 use crate::ids::{ContactId, IdVec, RodId, UnitId};
 

@@ -1,23 +1,25 @@
 //! From a placed pattern to a finished frame; what does not work is left out, one
 //! unit at a time, and the rest is solved again (paper, section 4.2 and Fig. 21).
 
-use super::axis::{Axis, Crossing};
+use super::assemble::{Ground, assemble};
+use super::axis::Axis;
 use super::clash::clashes;
 use super::close::{CloseError, Closing, Joint, close};
 use super::crop::crop;
-use super::cut::{Seat, crossings, cut, disorder, seats};
+use super::cut::{crossings, cut, disorder, seats};
+use super::fault::{Fault, cover};
 use super::layer::{Layering, layer};
 use super::lift::{Lifted, lift};
 use super::stand::{Standing, ground_level, stand};
 use super::weave::{Weave, weave};
-use super::{Contact, Dropped, Frame, Rod, Support, Unit};
+use super::{Dropped, Frame};
 use crate::chart::Chart;
-use crate::ids::{ContactId, IdVec, RodId, TileId, UnitId};
+use crate::ids::{ContactId, IdVec, RodId, TileId};
 use crate::linalg::LinalgError;
 use crate::pattern::{Pattern, UnitShape};
 use crate::tiling::{Placement, Tiling};
 use nalgebra::Point2;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use thiserror::Error;
 
 /// What a frame is made from, besides surface, pattern and placement. Lengths in mm.
@@ -48,15 +50,6 @@ pub struct Formed {
     pub moves: Vec<f64>,
     /// Rise of every contact before closing, mm.
     pub rises: IdVec<ContactId, f64>,
-}
-
-/// Something wrong with some units.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Fault {
-    /// The units, any one of which would mend it by its absence.
-    pub units: Vec<UnitId>,
-    /// What is wrong, as a clause.
-    pub reason: String,
 }
 
 /// Why there is no frame.
@@ -195,28 +188,6 @@ fn too_many(
     }
 }
 
-/// Units whose absence would mend all faults, each with the first of its faults: in
-/// turn the unit with the most faults left, of equals the outermost.
-fn cover(faults: &[Fault]) -> Vec<(UnitId, String)> {
-    let mut left: Vec<&Fault> = faults.iter().collect();
-    let mut chosen = Vec::new();
-    while !left.is_empty() {
-        let mut counts: BTreeMap<UnitId, usize> = BTreeMap::new();
-        for unit in left.iter().flat_map(|f| &f.units) {
-            *counts.entry(*unit).or_default() += 1;
-        }
-        let (&unit, _) = counts
-            .iter()
-            .max_by_key(|&(unit, count)| (*count, *unit))
-            .expect("every fault names at least one unit");
-        let (mended, rest): (Vec<_>, Vec<_>) =
-            left.into_iter().partition(|f| f.units.contains(&unit));
-        chosen.push((unit, mended[0].reason.clone()));
-        left = rest;
-    }
-    chosen
-}
-
 /// One try at a frame: the frame, or what is wrong with which units.
 fn attempt(
     chart: &impl Chart,
@@ -304,17 +275,8 @@ fn finish(
     let ground = ground_level(settings.surface_low, &axes);
     let how = Standing { ground, reach: REACH * placement.edge, diameter, round };
     let supports = stand(weave, &mut axes, &pairs, &how);
-    let crossings = crossings(weave, &axes, joints).map_err(|f| vec![f])?;
-    let seats = seats(weave, joints, &crossings);
-    Ok(assemble(
-        weave,
-        lifted,
-        &axes,
-        joints,
-        &crossings,
-        &seats,
-        Ground { diameter, ground, supports },
-    ))
+    let on = Ground { diameter, ground, supports };
+    assemble(weave, lifted, &axes, joints, on).map_err(|fault| vec![fault])
 }
 
 fn clash_faults(
@@ -335,61 +297,6 @@ fn clash_faults(
             Fault { units, reason }
         })
         .collect()
-}
-
-/// What a frame stands on.
-struct Ground {
-    diameter: f64,
-    ground: f64,
-    supports: Vec<Support>,
-}
-
-fn assemble(
-    weave: &Weave,
-    lifted: &Lifted,
-    axes: &IdVec<RodId, Axis>,
-    joints: &IdVec<ContactId, Joint>,
-    crossings: &IdVec<ContactId, Crossing>,
-    seats: &IdVec<RodId, Vec<Seat>>,
-    on: Ground,
-) -> Frame {
-    let contacts = joints
-        .enumerate()
-        .map(|(id, joint)| {
-            let x = &crossings[id];
-            let [u, v] = [joint.over, joint.under].map(|r| axes[r].direction());
-            Contact {
-                over: joint.over,
-                under: joint.under,
-                at_over: x.at_first,
-                at_under: x.at_second,
-                angle: u.cross(&v).norm().atan2(u.dot(&v).abs()),
-                gap: x.rise,
-                normal: joint.outward,
-                unit: weave.contacts[id].unit,
-            }
-        })
-        .collect();
-    let rods = axes
-        .enumerate()
-        .map(|(r, axis)| Rod {
-            axis: *axis,
-            units: weave.rods[r].units.into_iter().flatten().collect(),
-            contacts: seats[r].iter().map(|s| s.contact).collect(),
-        })
-        .collect();
-    let units = weave
-        .units
-        .enumerate()
-        .map(|(u, woven)| Unit {
-            center: lifted.centers[u],
-            chirality: woven.chirality,
-            rods: woven.rods.clone(),
-            contacts: woven.contacts.clone(),
-        })
-        .collect();
-    let Ground { diameter, ground, supports } = on;
-    Frame { diameter, ground, rods, contacts, units, supports, dropped: Vec::new() }
 }
 
 /// The tiles that a pattern would have on a chart, and its median rise, mm: what

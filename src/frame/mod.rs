@@ -2,11 +2,13 @@
 //! form. One file a step, in the order of [`form`](form::form): crop, weave, lift,
 //! layer, close, cut, stand, and the measures of the result.
 
+pub mod assemble;
 pub mod axis;
 pub mod clash;
 pub mod close;
 pub mod crop;
 pub mod cut;
+pub mod fault;
 pub mod fit;
 pub mod form;
 pub mod layer;

@@ -8,9 +8,9 @@ use super::{End, Support};
 use crate::ids::{IdVec, RodId};
 use std::collections::BTreeSet;
 
-/// Least sine of the slope at which a rod is let down to the ground. Flatter rods
-/// would slide out rather than stand.
-const LEAST_SLOPE: f64 = 0.25;
+/// Least sine of the slope at which a rod is let down to the ground: 30°. Flatter rods
+/// slide out rather than stand, and no saw cuts the long bevel that they would need.
+const LEAST_SLOPE: f64 = 0.5;
 
 /// The ground below a frame: the lowest point of the surface, or of the rods where
 /// they reach lower.

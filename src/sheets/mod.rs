@@ -11,6 +11,7 @@ mod format;
 mod legend;
 mod page;
 mod paper;
+mod pictures;
 mod rod_cards;
 mod strip;
 pub mod support_map;
@@ -23,6 +24,7 @@ mod tests;
 pub use format::PaperUnits;
 pub use page::Sheet;
 pub use paper::{Paper, PaperError};
+pub use pictures::pictures;
 
 use crate::drawing::DrawingError;
 use crate::frame::Frame;

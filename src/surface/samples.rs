@@ -58,8 +58,10 @@ pub fn sample(name: &str) -> Option<Mesh> {
 /// radius r and angle at the ground β are given. With cap radius R and the angle α
 /// where the two arcs meet,
 ///
-///     (R - r) sin α       = a - r sin β
-///     (R - r) (1 - cos α) = h - r (1 - cos β)
+/// ```text
+/// (R - r) sin α       = a - r sin β
+/// (R - r) (1 - cos α) = h - r (1 - cos β)
+/// ```
 ///
 /// whose quotient is tan(α / 2).
 struct Dome {

@@ -1,0 +1,73 @@
+//! Puts the finished frame together from its parts.
+
+use super::axis::Axis;
+use super::close::Joint;
+use super::cut::{crossings, seats};
+use super::fault::Fault;
+use super::lift::Lifted;
+use super::weave::Weave;
+use super::{Contact, Frame, Rod, Support, Unit};
+use crate::ids::{ContactId, IdVec, RodId};
+
+/// What a frame stands on. Lengths in mm.
+#[derive(Clone, Debug)]
+pub struct Ground {
+    /// Rod diameter.
+    pub diameter: f64,
+    /// Height of the ground.
+    pub ground: f64,
+    /// The rods that reach it.
+    pub supports: Vec<Support>,
+}
+
+/// The frame of these axes, which are closed and cut; nothing is left out of it yet.
+///
+/// # Errors
+/// The unit of a contact whose rods are parallel.
+pub fn assemble(
+    weave: &Weave,
+    lifted: &Lifted,
+    axes: &IdVec<RodId, Axis>,
+    joints: &IdVec<ContactId, Joint>,
+    on: Ground,
+) -> Result<Frame, Fault> {
+    let crossings = crossings(weave, axes, joints)?;
+    let seats = seats(weave, joints, &crossings);
+    let contacts = joints
+        .enumerate()
+        .map(|(id, joint)| {
+            let x = &crossings[id];
+            let [u, v] = [joint.over, joint.under].map(|r| axes[r].direction());
+            Contact {
+                over: joint.over,
+                under: joint.under,
+                at_over: x.at_first,
+                at_under: x.at_second,
+                angle: u.cross(&v).norm().atan2(u.dot(&v).abs()),
+                gap: x.rise,
+                normal: joint.outward,
+                unit: weave.contacts[id].unit,
+            }
+        })
+        .collect();
+    let rods = axes
+        .enumerate()
+        .map(|(r, axis)| Rod {
+            axis: *axis,
+            units: weave.rods[r].units.into_iter().flatten().collect(),
+            contacts: seats[r].iter().map(|s| s.contact).collect(),
+        })
+        .collect();
+    let units = weave
+        .units
+        .enumerate()
+        .map(|(u, woven)| Unit {
+            center: lifted.centers[u],
+            chirality: woven.chirality,
+            rods: woven.rods.clone(),
+            contacts: woven.contacts.clone(),
+        })
+        .collect();
+    let Ground { diameter, ground, supports } = on;
+    Ok(Frame { diameter, ground, rods, contacts, units, supports, dropped: Vec::new() })
+}
