@@ -32,7 +32,7 @@ pub fn crossings(
         .map(|(id, j)| {
             axes[j.over].cross(&axes[j.under], &j.outward).ok_or_else(|| Fault {
                 units: vec![weave.contacts[id].unit],
-                reason: format!("rods {} and {} became parallel", j.over, j.under),
+                reason: "two of its rods became parallel".into(),
             })
         })
         .collect()
@@ -74,7 +74,8 @@ pub fn disorder(weave: &Weave, seats: &IdVec<RodId, Vec<Seat>>, apart: f64) -> V
             let units = [a, b].into_iter().flatten().collect();
             faults.push(Fault {
                 units,
-                reason: format!("the contacts of rod {r} came out of order or too close together"),
+                reason: "contacts came out of order or too close together along one of its rods"
+                    .into(),
             });
         }
     }

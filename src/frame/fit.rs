@@ -4,7 +4,7 @@
 //! rise equals the diameter, rods touch without being moved much: thicker ones
 //! would push the frame off the surface, thinner ones let it sink.
 
-use super::form::median_rise;
+use super::form::{MOST_UNITS, median_rise, most_units};
 use crate::chart::Chart;
 use crate::pattern::Pattern;
 use crate::tiling::Placement;
@@ -34,6 +34,12 @@ pub enum FitError {
          model (--span), or set the unit yourself (--unit)"
     )]
     TooThick { diameter: f64, suits: f64 },
+    /// The rods are so thin that more units would be needed than can be laid out.
+    #[error(
+        "{diameter} mm rods are too thin for this surface: more than {MOST_UNITS} units would be \
+         needed. Use rods of at least {suits:.2} mm (--rod) or a smaller model (--span)"
+    )]
+    TooThin { diameter: f64, suits: f64 },
     /// The surface is too small for the rods.
     #[error(
         "there is no room for {LIKENESS} units on this surface, which is some {size:.1} mm across \
@@ -79,10 +85,18 @@ pub fn fit(
         let fit = Fit { edge, rise, units: tiles.len(), by_rise: true };
         (fit.units >= LIKENESS).then_some(fit)
     };
-    let least = LEAST_EDGE * diameter;
+    let room = LEAST_EDGE * diameter;
+    // No smaller than can be laid out.
+    let least = room.max((most_units(chart, 1.0) / MOST_UNITS as f64).sqrt());
     let [lo, hi] = chart.bounds();
     let most = (hi - lo).norm();
     let mut edge = guess(least, most, diameter, try_edge);
+    if edge < least && least > room {
+        // The square law says which diameter would fit the least edge.
+        let suits = diameter * (least / edge).powi(2);
+        return Err(FitError::TooThin { diameter, suits });
+    }
+    edge = edge.max(least);
     let (mut below, mut above): (Option<Fit>, Option<Fit>) = (None, None);
     loop {
         match try_edge(edge) {
@@ -100,22 +114,29 @@ pub fn fit(
         }
     }
     match (below, above) {
-        (_, Some(thinnest)) => Ok(thinnest),
+        (_, Some(smallest)) => Ok(smallest),
         (Some(largest), None) => plain(&largest, diameter, try_edge),
         (None, None) => {
             // Some 8 plain edges across leave a few dozen tiles after cropping.
             let suits = most / (8.0 * PLAIN_EDGE);
-            Err(FitError::NoRoom { size: most, diameter, least, suits })
+            Err(FitError::NoRoom { size: most, diameter, least: room, suits })
         }
     }
 }
 
+/// Edges of the first trials are at least this part of the surface's size, so that a
+/// trial is cheap however thin the rods.
+const COARSE: f64 = 1.0 / 64.0;
+
 /// A tile edge near the fitting one: the rise grows with its square.
 fn guess(least: f64, most: f64, diameter: f64, try_edge: impl Fn(f64) -> Option<Fit>) -> f64 {
-    let mut edge = (PLAIN_EDGE * diameter).min(most / 4.0).max(least);
+    let mut edge = (PLAIN_EDGE * diameter).max(COARSE * most).min(most / 4.0).max(least);
     for _ in 0..2 {
         let Some(now) = try_edge(edge) else { break };
-        edge = (now.edge * (diameter / now.rise).sqrt()).clamp(least, most);
+        edge = (now.edge * (diameter / now.rise).sqrt()).min(most);
+        if edge < least {
+            break;
+        }
     }
     edge
 }

@@ -68,6 +68,12 @@ pub enum FormError {
          (--unit), a larger turn (--turn) or thinner rods (--rod)"
     )]
     TooTight { edge: f64, diameter: f64, sides: usize, apart: f64, least: f64 },
+    /// More units than can be laid out.
+    #[error(
+        "units of edge {edge} mm would be some {about:.0} on this surface, more than the \
+         {MOST_UNITS} that fit in memory. Use larger units (--unit) or thicker rods (--rod)"
+    )]
+    TooManyUnits { edge: f64, about: f64 },
     /// Too much had to be left out.
     #[error(
         "{dropped} of {total} units of edge {edge:.1} mm do not work with {diameter} mm rods; the \
@@ -82,6 +88,9 @@ pub enum FormError {
 
 /// Fewest units that make a frame: three, so that a rod can lie between two.
 const LEAST_UNITS: usize = 3;
+
+/// Most tiles that are laid out: some gigabytes. More can only be a slip of a unit.
+pub const MOST_UNITS: usize = 1_000_000;
 
 /// Largest part of the units that may be left out before the whole is refused.
 /// More, and what remains is not the surface that was asked for.
@@ -108,8 +117,12 @@ pub fn form(
     placement: &Placement,
     settings: &FormSettings,
 ) -> Result<Formed, FormError> {
+    require_room(pattern, placement, settings)?;
+    let about = most_units(chart, placement.edge);
+    if about > MOST_UNITS as f64 {
+        return Err(FormError::TooManyUnits { edge: placement.edge, about });
+    }
     let tiling = patch(chart, pattern, placement);
-    require_room(&tiling, placement, settings)?;
     let mut without = BTreeSet::new();
     let mut dropped: Vec<Dropped> = Vec::new();
     let mut total = None;
@@ -145,13 +158,12 @@ pub fn form(
 
 /// Refuses units whose contacts lie nearer together than the rods are thick.
 fn require_room(
-    tiling: &Tiling,
+    pattern: &Pattern,
     placement: &Placement,
     settings: &FormSettings,
 ) -> Result<(), FormError> {
     let (edge, diameter) = (placement.edge, settings.diameter);
-    let sizes: BTreeSet<usize> = tiling.tiles.iter().map(|t| t.corners.len()).collect();
-    for sides in sizes {
+    for sides in pattern.tiling().polygons() {
         let shape = UnitShape::new(sides, settings.turn);
         let side = shape.ending - shape.passing;
         if side * edge < ENGAGEMENT * diameter {
@@ -160,6 +172,14 @@ fn require_room(
         }
     }
     Ok(())
+}
+
+/// An upper bound to the number of tiles of this edge on a chart: as if all were
+/// triangles, in the box round it.
+pub fn most_units(chart: &impl Chart, edge: f64) -> f64 {
+    let [lo, hi] = chart.bounds();
+    let triangle = 3f64.sqrt() / 4.0 * edge * edge;
+    (hi.x - lo.x) * (hi.y - lo.y) / triangle
 }
 
 /// The tiles over the whole chart.
@@ -225,11 +245,8 @@ fn attempt(
 }
 
 fn open_contact(weave: &Weave, contact: ContactId) -> Fault {
-    let c = &weave.contacts[contact];
-    Fault {
-        units: vec![c.unit],
-        reason: format!("rods {} and {} could not be brought to touch", c.ending, c.passing),
-    }
+    let units = vec![weave.contacts[contact].unit];
+    Fault { units, reason: "two of its rods could not be brought to touch".into() }
 }
 
 fn joints(
@@ -288,10 +305,9 @@ fn clash_faults(
     clashes(axes, diameter, pairs)
         .iter()
         .map(|clash| {
-            let [p, q] = clash.rods;
             let units = clash.rods.iter().flat_map(|&r| weave.rods[r].units).flatten().collect();
             let reason = format!(
-                "rods {p} and {q} would run into each other: their axes pass at {:.2} mm",
+                "one of its rods would run into another: their axes pass at {:.2} mm",
                 clash.distance
             );
             Fault { units, reason }
@@ -300,13 +316,16 @@ fn clash_faults(
 }
 
 /// The tiles that a pattern would have on a chart, and its median rise, mm: what
-/// [`fit`](super::fit) looks at.
+/// [`fit`](super::fit) looks at. `None` where it has too few or too many.
 pub fn median_rise(
     chart: &impl Chart,
     pattern: &Pattern,
     placement: &Placement,
     turn: f64,
 ) -> Option<(Vec<TileId>, f64)> {
+    if most_units(chart, placement.edge) > MOST_UNITS as f64 {
+        return None;
+    }
     let tiling = patch(chart, pattern, placement);
     let tiles = crop(&tiling, placement, turn, chart, &BTreeSet::new());
     if tiles.len() < LEAST_UNITS {

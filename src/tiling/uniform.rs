@@ -73,6 +73,11 @@ impl UniformTiling {
         UNIFORM.iter().find(|t| t.name == name)
     }
 
+    /// The numbers of sides of its polygons, as they stand round a vertex.
+    pub fn polygons(&self) -> impl Iterator<Item = usize> + '_ {
+        self.name.split('.').filter_map(|sides| sides.parse().ok())
+    }
+
     /// All tiles that lie wholly in the box `[low, high]`; unit edge length, a
     /// vertex or a hexagon's centre at the origin.
     ///
@@ -253,7 +258,7 @@ mod tests {
     fn every_inner_vertex_has_the_configuration_of_its_name() {
         for kind in UNIFORM {
             let tiling = kind.patch(Point2::new(-6.0, -5.0), Point2::new(6.0, 5.0));
-            let wanted: Vec<usize> = kind.name.split('.').map(|n| n.parse().unwrap()).collect();
+            let wanted: Vec<usize> = kind.polygons().collect();
             let mut complete = 0;
             for v in 0..tiling.vertices.len() {
                 if let Some(found) = configuration(&tiling, v) {
