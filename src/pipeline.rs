@@ -14,7 +14,7 @@ use crate::surface::locate::Locator;
 use crate::surface::mend::MendError;
 use crate::surface::read::{ReadError, read};
 use crate::surface::topology::{TopologyError, require_disk};
-use crate::surface::up::{Up, upright};
+use crate::surface::up::{upright, with_file_axes};
 use crate::surface::{Mesh, Point3};
 use crate::tiling::Placement;
 use crate::write::cutlist::{cutlist_csv, cutlist_json};
@@ -141,8 +141,9 @@ impl Files {
 fn guiding_surface(design: &Design) -> Result<(Mesh, Vec<String>), BuildError> {
     let reading = read(&design.surface_file)?;
     let mut mesh = match design.up {
-        Some(up) if !(reading.y_up_metres && up == Up::Y) => upright(&reading.mesh, up)?,
-        _ => reading.mesh,
+        Some(up) if reading.y_up_metres => upright(&with_file_axes(&reading.mesh), up)?,
+        Some(up) => upright(&reading.mesh, up)?,
+        None => reading.mesh,
     };
     if let (Some(span), Some([lo, hi])) = (design.span, mesh.bounds()) {
         let longest = (hi.x - lo.x).max(hi.y - lo.y);

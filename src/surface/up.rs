@@ -60,6 +60,13 @@ pub fn upright(mesh: &Mesh, up: Up) -> Result<Mesh, MendError> {
     Ok(mend(Mesh { points, triangles: mesh.triangles.clone() })?.mesh)
 }
 
+/// Turns a mesh that was read with y up back to the axes of its file, so that another
+/// axis can be taken as up.
+pub fn with_file_axes(mesh: &Mesh) -> Mesh {
+    let points = mesh.points.iter().map(|p| Point3::new(p.x, p.z, -p.y)).collect();
+    Mesh { points, triangles: mesh.triangles.clone() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -81,9 +88,6 @@ mod tests {
     #[test]
     fn a_dome_laid_on_its_side_stands_up_again() {
         let dome = samples::sample("igloo").expect("a sample");
-        // The inverse of turning y up: z goes to y.
-        let points = dome.points.iter().map(|p| Point3::new(p.x, p.z, -p.y)).collect();
-        let lying = Mesh { points, triangles: dome.triangles.clone() };
-        assert_eq!(upright(&lying, Up::Y), Ok(dome));
+        assert_eq!(upright(&with_file_axes(&dome), Up::Y), Ok(dome));
     }
 }
