@@ -358,7 +358,7 @@ impl Design {
         file.set("origin", self.origin.map(mm).to_vec());
         file.set("rotate", self.given.rotate.map_or_else(|| "0deg".into(), |a| a.to_string()));
         file.set("overhang", mm(self.overhang));
-        file.set("layer", toml::Value::try_from(self.layer).unwrap_or(toml::Value::Boolean(false)));
+        file.set("layer", choice(self.layer));
         match self.up {
             Some(up) => file.set("up", up.to_string()),
             None => file.note("up is z (glTF: y)"),
@@ -372,9 +372,9 @@ impl Design {
         file.set("kerf", mm(self.kerf));
         file.set("round", mm(self.round));
         file.set("paper", self.paper.to_string());
-        file.set("units", toml::Value::try_from(self.units).unwrap_or(toml::Value::Boolean(false)));
+        file.set("units", choice(self.units));
         if let Some(only) = &self.given.only {
-            file.set("only", toml::Value::try_from(only).unwrap_or(toml::Value::Boolean(false)));
+            file.set("only", choice(only));
         }
         file.text
     }
@@ -395,6 +395,11 @@ impl TomlFile {
     fn note(&mut self, text: &str) {
         writeln!(self.text, "# {text}").expect("writing to a string cannot fail");
     }
+}
+
+/// A choice as the file names it.
+fn choice(value: impl Serialize) -> toml::Value {
+    toml::Value::try_from(value).expect("choices are written by their names: TOML strings")
 }
 
 fn mm(length: f64) -> String {

@@ -26,11 +26,13 @@
 //! # }
 //! ```
 //!
-//! The whole way, from a design to the files of its folder, is [`pipeline`].
+//! The whole way from a design to a model is [`pipeline`]; what is written of the model,
+//! [`documents`].
 
 pub mod chart;
 pub mod cli;
 pub mod design;
+pub mod documents;
 pub mod drawing;
 pub mod frame;
 pub mod ids;

@@ -1,15 +1,13 @@
-//! The whole way, from a design to the files of its output folder. Read this first.
+//! The whole way, from a design to a finished model. Read this first; what is then
+//! drawn and written of the model stands in [`documents`](crate::documents).
 
 use crate::chart::{ChartError, Distortion, PlanarChart};
-use crate::design::{Design, Part};
-use crate::drawing::pdf::{self, DocumentInfo, Page};
-use crate::drawing::{DrawingError, svg};
+use crate::design::Design;
 use crate::frame::fit::{Fit, FitError, fit};
 use crate::frame::form::{FormError, FormSettings, Formed, form, median_rise};
 use crate::frame::measure::{Measures, measure};
-use crate::sheets::{SheetError, SheetSettings, pictures, sheets, support_map};
 use crate::shop::cutlist::{CutError, CutPlan, Stock, plan};
-use crate::shop::lengths::{classes, cut_lengths};
+use crate::shop::lengths::cut_lengths;
 use crate::surface::locate::Locator;
 use crate::surface::mend::MendError;
 use crate::surface::read::{ReadError, read};
@@ -17,11 +15,6 @@ use crate::surface::topology::{TopologyError, require_disk};
 use crate::surface::up::{upright, with_file_axes};
 use crate::surface::{Mesh, Point3};
 use crate::tiling::Placement;
-use crate::write::cutlist::{cutlist_csv, cutlist_json};
-use crate::write::glb::{GlbError, glb};
-use crate::write::report::{self, Report};
-use crate::write::structure::{Structure, StructureFault};
-use crate::write::tables::{self, TableError};
 use thiserror::Error;
 
 /// A finished model: the frame and everything that was found on the way.
@@ -64,9 +57,6 @@ pub enum Step {
     Write,
 }
 
-/// A file of the output folder: its path inside, and its bytes.
-pub type OutputFile = (String, Vec<u8>);
-
 /// Makes the model that a design asks for. `begin` is called as each step begins.
 ///
 /// # Errors
@@ -87,54 +77,6 @@ pub fn build(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, Buil
     begin(Step::Saw);
     let plan = sawing_plan(design, &formed)?;
     Ok(Model { surface, notes, distortion: chart.distortion(), fit, formed, measures, plan })
-}
-
-/// The files that the design wants of a model, in a fixed order.
-///
-/// # Errors
-/// [`BuildError`] when a document cannot be drawn or encoded.
-pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, BuildError> {
-    let frame = &model.formed.frame;
-    let classes = classes(frame);
-    let structure = Structure::from_frame(frame, &classes, &[]);
-    let stock: Vec<f64> = model.plan.shopping().iter().map(|&(length, _)| length).collect();
-    let mut files = Files::default();
-    files.add("structure.json", structure.to_json()?);
-    files.add("report.json", report(design, model).to_json()?);
-    files.add("design.toml", design.to_toml(model.fit.edge, &stock));
-    if design.wants(Part::Csv) {
-        files.add("rods.csv", tables::rods(frame, &classes)?);
-        files.add("contacts.csv", tables::contacts(frame)?);
-        files.add("supports.csv", tables::supports(frame)?);
-    }
-    if design.wants(Part::Cutlist) {
-        files.add("cutlist.json", cutlist_json(&model.plan)?);
-        files.add("cutlist.csv", cutlist_csv(&model.plan, &classes)?);
-    }
-    if design.wants(Part::Glb) {
-        files.add("model.glb", glb(&structure)?);
-    }
-    if design.wants(Part::Sheets) {
-        add_sheets(design, model, &mut files)?;
-    }
-    if design.wants(Part::SupportMap) {
-        add_support_map(design, model, &mut files)?;
-    }
-    if design.wants(Part::Pictures) {
-        for (name, picture) in pictures(frame) {
-            files.add(format!("pictures/{name}.svg"), svg::render(&picture)?);
-        }
-    }
-    Ok(files.0)
-}
-
-#[derive(Default)]
-struct Files(Vec<OutputFile>);
-
-impl Files {
-    fn add(&mut self, name: impl Into<String>, content: impl Into<Vec<u8>>) {
-        self.0.push((name.into(), content.into()));
-    }
 }
 
 /// Reads the surface, turns it upright and scales it.
@@ -198,61 +140,7 @@ fn sawing_plan(design: &Design, formed: &Formed) -> Result<CutPlan, BuildError> 
 /// Sticks are sold by the metre, mm.
 const METRE: f64 = 1000.0;
 
-fn report(design: &Design, model: &Model) -> Report {
-    Report {
-        model: design.name(),
-        pattern: design.pattern.name.into(),
-        rod_diameter: design.rod,
-        turn: design.turn.to_degrees(),
-        surface: report::surface(&model.surface, &model.notes, &model.distortion),
-        fit: report::fit(&model.fit, design.unit.is_some()),
-        closing: report::closing(&model.formed.closing),
-        measures: model.measures.clone(),
-        sawing: report::sawing(&model.plan),
-        dropped: report::dropped(&model.formed.frame),
-    }
-}
-
-fn add_sheets(design: &Design, model: &Model, files: &mut Files) -> Result<(), BuildError> {
-    let sheets = sheets(&model.formed.frame, &model.plan, &sheet_settings(design, model))?;
-    for sheet in &sheets {
-        files.add(format!("sheets/{}.svg", sheet.stem), svg::render(&sheet.page.drawing)?);
-    }
-    let pages: Vec<Page> = sheets.into_iter().map(|s| s.page).collect();
-    files.add("sheets.pdf", pdf::render(&pages, &info(design, "building sheets"))?);
-    Ok(())
-}
-
-fn add_support_map(design: &Design, model: &Model, files: &mut Files) -> Result<(), BuildError> {
-    let (frame, settings) = (&model.formed.frame, sheet_settings(design, model));
-    files.add("support-map.svg", svg::render(&support_map::drawing(frame, &settings)?)?);
-    let sheets = support_map::pages(frame, &settings)?;
-    let pages: Vec<Page> = sheets.into_iter().map(|s| s.page).collect();
-    files.add("support-map.pdf", pdf::render(&pages, &info(design, "support map"))?);
-    Ok(())
-}
-
-fn sheet_settings(design: &Design, model: &Model) -> SheetSettings {
-    let pattern = format!("pattern {}: {}", design.pattern.name, design.pattern.summary);
-    let edge = design.units.measure(model.fit.edge);
-    let unit = format!("rods turned by {:.1}°, tile edge {edge}", design.turn.to_degrees());
-    SheetSettings {
-        model: design.name(),
-        paper: design.paper,
-        units: design.units,
-        notes: vec![pattern, unit],
-    }
-}
-
-fn info(design: &Design, what: &str) -> DocumentInfo {
-    DocumentInfo {
-        title: format!("{}: {what}", design.name()),
-        creator: format!("rodwright {}", env!("CARGO_PKG_VERSION")),
-        ..DocumentInfo::default()
-    }
-}
-
-/// Why there is no model, or no folder.
+/// Why there is no model.
 #[derive(Error, Debug)]
 pub enum BuildError {
     /// The surface file.
@@ -281,24 +169,6 @@ pub enum BuildError {
     /// The sawing plan.
     #[error("{0}. {hint}", hint = sentence(&.0.hint()))]
     Cut(#[from] CutError),
-    /// The papers.
-    #[error(transparent)]
-    Sheets(#[from] SheetError),
-    /// A drawing.
-    #[error(transparent)]
-    Drawing(#[from] DrawingError),
-    /// structure.json.
-    #[error(transparent)]
-    Structure(#[from] StructureFault),
-    /// report.json.
-    #[error("report.json cannot be written: {0}")]
-    Report(#[from] serde_json::Error),
-    /// A table.
-    #[error(transparent)]
-    Table(#[from] TableError),
-    /// model.glb.
-    #[error(transparent)]
-    Glb(#[from] GlbError),
 }
 
 /// A hint as a sentence of its own.

@@ -65,9 +65,9 @@ impl Angle {
         self.0
     }
 
-    /// In degrees.
+    /// In degrees, to twelve decimals: what was given in degrees comes back as given.
     pub fn degrees(self) -> f64 {
-        self.0.to_degrees()
+        tidy(self.0.to_degrees())
     }
 }
 
@@ -161,7 +161,7 @@ impl fmt::Display for Length {
 /// In degrees where the degrees read back as the same angle, else in radians.
 impl fmt::Display for Angle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let degrees = tidy(self.0.to_degrees());
+        let degrees = self.degrees();
         if degrees.to_radians() == self.0 {
             write!(f, "{degrees}deg")
         } else {

@@ -5,7 +5,8 @@ use super::progress::Progress;
 use super::summary::summary;
 use super::terminal::{Terminal, print};
 use crate::design::{Design, DesignError, Settings};
-use crate::pipeline::{self, BuildError, Model, Step};
+use crate::documents;
+use crate::pipeline::{self, Model, Step};
 use crate::write::folder::{FolderError, OutputFolder};
 use std::path::{Path, PathBuf};
 
@@ -44,8 +45,10 @@ pub fn run(args: Args, terminal: &Terminal) -> Result<(), Failure> {
     let out = args.out.clone().unwrap_or_else(|| design.default_folder());
     let mut folder = OutputFolder::prepare(&out, args.force).map_err(folder_failure)?;
     let mut progress = Progress::new(args.quiet);
-    let (model, files) = work(&design, &mut progress)
+    let model = pipeline::build(&design, &mut |step| progress.begin(step))
         .map_err(|e| if e.is_io() { Failure::file(e) } else { Failure::input(e) })?;
+    progress.begin(Step::Draw);
+    let files = documents::files(&design, &model).map_err(Failure::input)?;
     progress.begin(Step::Write);
     let report = files.iter().find(|(name, _)| name == "report.json").map(|f| f.1.clone());
     for (name, bytes) in files {
@@ -89,16 +92,6 @@ fn design(args: &Args) -> Result<Design, Failure> {
     // A surface named on the command line is not looked up beside the design file.
     let folder = folder.filter(|_| args.settings.surface.is_none());
     args.settings.clone().or(from_file).resolve(folder).map_err(failure)
-}
-
-fn work(
-    design: &Design,
-    progress: &mut Progress,
-) -> Result<(Model, Vec<pipeline::OutputFile>), BuildError> {
-    let model = pipeline::build(design, &mut |step| progress.begin(step))?;
-    progress.begin(Step::Draw);
-    let files = pipeline::files(design, &model)?;
-    Ok((model, files))
 }
 
 /// A stick this many times thicker or thinner than the rise sits badly.

@@ -1,0 +1,143 @@
+//! What is drawn and written of a finished model: the files of the output folder.
+
+use crate::design::{Design, Part};
+use crate::drawing::pdf::{self, DocumentInfo, Page};
+use crate::drawing::{DrawingError, svg};
+use crate::pipeline::Model;
+use crate::sheets::{Sheet, SheetError, SheetSettings, pictures, sheets, support_map};
+use crate::shop::lengths::classes;
+use crate::write::cutlist::{cutlist_csv, cutlist_json};
+use crate::write::glb::{GlbError, glb};
+use crate::write::report::{self, Report};
+use crate::write::structure::{Structure, StructureFault};
+use crate::write::tables::{self, TableError};
+use thiserror::Error;
+
+/// A file of the output folder: its path inside, and its bytes.
+pub type OutputFile = (String, Vec<u8>);
+
+/// The files that the design wants of a model, in a fixed order.
+///
+/// # Errors
+/// [`DocumentError`] when a document cannot be drawn or encoded.
+pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, DocumentError> {
+    let frame = &model.formed.frame;
+    let classes = classes(frame);
+    let structure = Structure::from_frame(frame, &classes, &[]);
+    let stock: Vec<f64> = model.plan.shopping().iter().map(|&(length, _)| length).collect();
+    let mut files = Files::default();
+    files.add("structure.json", structure.to_json()?);
+    files.add("report.json", report(design, model).to_json()?);
+    files.add("design.toml", design.to_toml(model.fit.edge, &stock));
+    if design.wants(Part::Csv) {
+        files.add("rods.csv", tables::rods(frame, &classes)?);
+        files.add("contacts.csv", tables::contacts(frame)?);
+        files.add("supports.csv", tables::supports(frame)?);
+    }
+    if design.wants(Part::Cutlist) {
+        files.add("cutlist.json", cutlist_json(&model.plan)?);
+        files.add("cutlist.csv", cutlist_csv(&model.plan, &classes)?);
+    }
+    if design.wants(Part::Glb) {
+        files.add("model.glb", glb(&structure)?);
+    }
+    if design.wants(Part::Sheets) {
+        add_sheets(design, model, &mut files)?;
+    }
+    if design.wants(Part::SupportMap) {
+        add_support_map(design, model, &mut files)?;
+    }
+    if design.wants(Part::Pictures) {
+        for (name, picture) in pictures(frame) {
+            files.add(format!("pictures/{name}.svg"), svg::render(&picture)?);
+        }
+    }
+    Ok(files.0)
+}
+
+#[derive(Default)]
+struct Files(Vec<OutputFile>);
+
+impl Files {
+    fn add(&mut self, name: impl Into<String>, content: impl Into<Vec<u8>>) {
+        self.0.push((name.into(), content.into()));
+    }
+}
+
+fn report(design: &Design, model: &Model) -> Report {
+    Report {
+        model: design.name(),
+        pattern: design.pattern.name.into(),
+        rod_diameter: design.rod,
+        turn: design.turn.to_degrees(),
+        surface: report::surface(&model.surface, &model.notes, &model.distortion),
+        fit: report::fit(&model.fit, design.unit.is_some()),
+        closing: report::closing(&model.formed.closing),
+        measures: model.measures.clone(),
+        sawing: report::sawing(&model.plan),
+        dropped: report::dropped(&model.formed.frame),
+    }
+}
+
+fn add_sheets(design: &Design, model: &Model, files: &mut Files) -> Result<(), DocumentError> {
+    let sheets = sheets(&model.formed.frame, &model.plan, &sheet_settings(design, model))?;
+    for sheet in &sheets {
+        files.add(format!("sheets/{}.svg", sheet.stem), svg::render(&sheet.page.drawing)?);
+    }
+    files.add("sheets.pdf", bound(sheets, design, "building sheets")?);
+    Ok(())
+}
+
+fn add_support_map(design: &Design, model: &Model, files: &mut Files) -> Result<(), DocumentError> {
+    let (frame, settings) = (&model.formed.frame, sheet_settings(design, model));
+    files.add("support-map.svg", svg::render(&support_map::drawing(frame, &settings)?)?);
+    let sheets = support_map::pages(frame, &settings)?;
+    files.add("support-map.pdf", bound(sheets, design, "support map")?);
+    Ok(())
+}
+
+fn sheet_settings(design: &Design, model: &Model) -> SheetSettings {
+    let pattern = format!("pattern {}: {}", design.pattern.name, design.pattern.summary);
+    let edge = design.units.measure(model.fit.edge);
+    let unit = format!("rods turned by {:.1}°, tile edge {edge}", design.turn.to_degrees());
+    SheetSettings {
+        model: design.name(),
+        paper: design.paper,
+        units: design.units,
+        notes: vec![pattern, unit],
+    }
+}
+
+/// Sheets as one PDF file.
+fn bound(sheets: Vec<Sheet>, design: &Design, what: &str) -> Result<Vec<u8>, DrawingError> {
+    let pages: Vec<Page> = sheets.into_iter().map(|s| s.page).collect();
+    let info = DocumentInfo {
+        title: format!("{}: {what}", design.name()),
+        creator: format!("rodwright {}", env!("CARGO_PKG_VERSION")),
+        ..DocumentInfo::default()
+    };
+    pdf::render(&pages, &info)
+}
+
+/// Why a file cannot be made.
+#[derive(Error, Debug)]
+pub enum DocumentError {
+    /// The papers.
+    #[error(transparent)]
+    Sheets(#[from] SheetError),
+    /// A drawing.
+    #[error(transparent)]
+    Drawing(#[from] DrawingError),
+    /// structure.json.
+    #[error(transparent)]
+    Structure(#[from] StructureFault),
+    /// report.json.
+    #[error("report.json cannot be written: {0}")]
+    Report(#[from] serde_json::Error),
+    /// A table.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// model.glb.
+    #[error(transparent)]
+    Glb(#[from] GlbError),
+}
