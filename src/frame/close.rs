@@ -52,8 +52,8 @@ pub enum CloseError {
 /// step early and leave errors that marks to 0.1 mm never show but checks do.
 const EXACT: f64 = 1e-12;
 
-/// Errors up to this are still exact for the contract; reached where rounding
-/// keeps a large frame from [`EXACT`].
+/// Errors up to this get one more step, and no more where rounding keeps a large
+/// frame from [`EXACT`]: ten times below what the structure file promises.
 const GOOD: f64 = 1e-10;
 
 /// Steps before giving up; good starts take three to five.
@@ -87,8 +87,8 @@ pub fn close(
     for step in 0..=MAX_STEPS {
         let rows = rows(axes, joints)?;
         let error = errors(&rows, joints).map(|e| e.1).fold(0.0, worse);
-        let stalled = error <= GOOD && error > 0.5 * last;
-        if error <= EXACT || stalled {
+        let polished = error <= GOOD && last <= GOOD;
+        if error <= EXACT || polished {
             return Ok(Closing { steps: step, error });
         }
         if step == MAX_STEPS || error.is_nan() {
