@@ -30,7 +30,8 @@ pub enum UnitError {
     NotFinite(String),
 }
 
-const MM_PER_INCH: f64 = 25.4;
+/// Millimetres to the inch.
+pub const MM_PER_INCH: f64 = 25.4;
 
 impl Length {
     /// A length of `mm` millimetres.

@@ -70,8 +70,10 @@ pub struct Histogram {
 /// Number of bins of a histogram.
 const BINS: usize = 20;
 
-/// Lengths nearer than this are one length, mm.
-const SAME_LENGTH: f64 = 1e-6;
+/// Rods whose lengths differ by less are of one length, mm. Cut lengths are multiples
+/// of the rounding step up to the noise of arithmetic; a larger bound would only
+/// matter below steps of a thousandth, a smaller one would split lengths by noise.
+pub const SAME_LENGTH: f64 = 1e-6;
 
 /// Measures a frame against its surface.
 pub fn measure(formed: &Formed, surface: &Locator) -> Measures {

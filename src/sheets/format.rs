@@ -1,9 +1,7 @@
 //! How figures are printed.
 
+use crate::units::MM_PER_INCH;
 use serde::{Deserialize, Serialize};
-
-/// Millimetres to the inch.
-const MM_PER_INCH: f64 = 25.4;
 
 /// The unit in which documents print lengths. Files stay in mm.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, clap::ValueEnum)]

@@ -3,6 +3,7 @@
 use super::PaperUnits;
 use super::page::{SMALL, THIN};
 use crate::drawing::{Color, Dash, Draw, Item, Point, Stroke};
+use crate::units::MM_PER_INCH;
 
 /// Sides of the outer calibration box, mm: 10 × 5 cm.
 const BOX_CM: [f64; 2] = [100.0, 50.0];
@@ -71,7 +72,7 @@ fn ruler_items(room: f64, units: PaperUnits) -> Vec<Item> {
     // The steps of a figure, and how many small steps it has.
     let (figure, parts) = match units {
         PaperUnits::Mm => (10.0, 10),
-        PaperUnits::Inch => (25.4, 8),
+        PaperUnits::Inch => (MM_PER_INCH, 8),
     };
     let figures = (room.min(RULER) / figure).floor() as usize;
     let mut items = Vec::new();

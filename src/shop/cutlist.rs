@@ -9,7 +9,7 @@
 //! Problems*, 1990, section 8.3), which is never below ⌈Σ(ℓ + k)/(L + k)⌉. The plan is
 //! proven where the two agree; where they do not, a better one may or may not exist.
 
-use super::lengths::SAME_LENGTH;
+use crate::frame::measure::SAME_LENGTH;
 use crate::ids::{IdVec, RodId};
 
 /// What the builder can buy, and how wide the saw cuts.

@@ -2,12 +2,8 @@
 
 use super::letters;
 use crate::frame::Frame;
+use crate::frame::measure::SAME_LENGTH;
 use crate::ids::{IdVec, RodId};
-
-/// Rods whose lengths differ by less are of one class, mm. Cut lengths are multiples
-/// of the rounding step up to the noise of arithmetic; a larger bound would only
-/// matter below steps of a thousandth, a smaller one would split classes by noise.
-pub const SAME_LENGTH: f64 = 1e-6;
 
 /// Rods of one cut length.
 #[derive(Clone, PartialEq, Debug)]
