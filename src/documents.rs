@@ -72,7 +72,7 @@ fn report(design: &Design, model: &Model) -> Report {
         turn: design.turn.to_degrees(),
         surface: report::surface(&model.surface, &model.notes, &model.distortion),
         fit: report::fit(&model.fit, design.unit.is_some()),
-        closing: report::closing(&model.formed.closing),
+        closing: model.formed.closing,
         measures: model.measures.clone(),
         sawing: report::sawing(&model.plan),
         dropped: report::dropped(&model.formed.frame),

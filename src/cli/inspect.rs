@@ -158,9 +158,7 @@ fn contact(page: &mut Page, frame: &Frame, id: ContactId) {
     page.row("under", format!("{} @ {:.1} mm from its end A", c.under, c.at_under));
     page.row("angle", format!("{:.1}°", c.angle.to_degrees()));
     page.row("axes apart", format!("{:.6} mm", c.gap));
-    let p = frame.rods[c.over].axis.at(c.at_over);
-    let q = frame.rods[c.under].axis.at(c.at_under);
-    page.row("place", place(nalgebra::center(&p, &q)));
+    page.row("place", place(frame.contact_middle(id)));
     page.row("unit", c.unit);
 }
 

@@ -13,6 +13,7 @@ use super::axis::Axis;
 use crate::ids::{ContactId, Id, IdVec, RodId};
 use crate::linalg::{LinalgError, SpdSolver, block_entries};
 use crate::surface::Vector3;
+use serde::Serialize;
 
 /// A contact to be closed.
 #[derive(Clone, Debug)]
@@ -28,7 +29,7 @@ pub struct Joint {
 }
 
 /// What closing took.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub struct Closing {
     /// Newton steps.
     pub steps: usize,

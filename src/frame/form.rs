@@ -291,7 +291,7 @@ fn finish(
     }
     let ground = ground_level(settings.surface_low, &axes);
     let how = Standing { ground, reach: REACH * placement.edge, diameter, round };
-    let supports = stand(weave, &mut axes, &pairs, &how);
+    let supports = stand(weave, &mut axes, &how);
     let on = Ground { diameter, ground, supports };
     assemble(weave, lifted, &axes, joints, on).map_err(|fault| vec![fault])
 }

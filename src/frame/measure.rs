@@ -2,7 +2,7 @@
 
 use super::Frame;
 use super::form::Formed;
-use crate::ids::Id;
+use crate::ids::{ContactId, IdVec};
 use crate::surface::Point3;
 use crate::surface::locate::Locator;
 use serde::Serialize;
@@ -83,7 +83,8 @@ pub fn measure(formed: &Formed, surface: &Locator) -> Measures {
     let distinct = lengths.windows(2).filter(|l| l[1] - l[0] > SAME_LENGTH).count();
     let w = frame.diameter;
     let gap_error = |gap: f64| (gap - w).abs() / w;
-    let middles = contact_middles(frame);
+    let middles: IdVec<ContactId, Point3> =
+        frame.contacts.ids().map(|c| frame.contact_middle(c)).collect();
     let (angles, sides) = regularity(frame, &middles);
     Measures {
         rods: frame.rods.len(),
@@ -106,21 +107,12 @@ pub fn measure(formed: &Formed, surface: &Locator) -> Measures {
     }
 }
 
-/// The middle of each contact, between the two axes.
-fn contact_middles(frame: &Frame) -> Vec<Point3> {
-    let middle = |c: &super::Contact| {
-        let p = frame.rods[c.over].axis.at(c.at_over);
-        nalgebra::center(&p, &frame.rods[c.under].axis.at(c.at_under))
-    };
-    frame.contacts.iter().map(middle).collect()
-}
-
 /// Deviations of the inner polygons from regular ones: angles in degrees, sides as
 /// part of the mean side of the unit.
-fn regularity(frame: &Frame, middles: &[Point3]) -> (Vec<f64>, Vec<f64>) {
+fn regularity(frame: &Frame, middles: &IdVec<ContactId, Point3>) -> (Vec<f64>, Vec<f64>) {
     let (mut angles, mut sides) = (Vec::new(), Vec::new());
     for unit in &frame.units {
-        let corner = |i: usize| middles[unit.contacts[i % unit.contacts.len()].index()];
+        let corner = |i: usize| middles[unit.contacts[i % unit.contacts.len()]];
         let n = unit.contacts.len();
         let regular = PI - 2.0 * PI / n as f64;
         let lengths: Vec<f64> = (0..n).map(|i| (corner(i + 1) - corner(i)).norm()).collect();

@@ -135,8 +135,7 @@ pub struct Dropped {
 }
 
 impl Frame {
-    /// The end of a contact's other rod and where the contact lies on `rod`:
-    /// `(partner, distance from end A on rod, distance on the partner, rod is over)`.
+    /// A contact as `rod`, one of its two rods, sees it.
     pub fn seen_from(&self, contact: ContactId, rod: RodId) -> Mating {
         let c = &self.contacts[contact];
         if c.over == rod {
@@ -144,6 +143,13 @@ impl Frame {
         } else {
             Mating { partner: c.over, at: c.at_under, at_partner: c.at_over, over: false }
         }
+    }
+
+    /// The middle of a contact, half-way between the two axes.
+    pub fn contact_middle(&self, contact: ContactId) -> Point3 {
+        let c = &self.contacts[contact];
+        let over = self.rods[c.over].axis.at(c.at_over);
+        nalgebra::center(&over, &self.rods[c.under].axis.at(c.at_under))
     }
 
     /// The position of an end of a rod.

@@ -33,26 +33,27 @@ pub struct Standing {
 
 /// Lengthens border rods at end A down to the ground, one after the other, where
 /// they are steep enough, near enough, and stay clear of all other rods.
-///
-/// `contacts` holds the pairs of rods that touch.
-pub fn stand(
-    weave: &Weave,
-    axes: &mut IdVec<RodId, Axis>,
-    contacts: &BTreeSet<[RodId; 2]>,
-    how: &Standing,
-) -> Vec<Support> {
+pub fn stand(weave: &Weave, axes: &mut IdVec<RodId, Axis>, how: &Standing) -> Vec<Support> {
     let mut supports = Vec::new();
     for r in weave.rods.ids().filter(|&r| weave.rods[r].units[0].is_none()) {
         let Some(longer) = let_down(&axes[r], how) else { continue };
-        let mut except: BTreeSet<RodId> =
-            contacts.iter().filter(|p| p.contains(&r)).flatten().copied().collect();
-        except.insert(r);
-        if is_clear(&longer, axes, how.diameter, &except) {
+        if is_clear(&longer, axes, how.diameter, &with_partners(weave, r)) {
             axes[r] = longer;
             supports.push(Support { rod: r, end: End::A, point: longer.a });
         }
     }
     supports
+}
+
+/// A rod and the rods that it touches, all of them in its own units.
+fn with_partners(weave: &Weave, rod: RodId) -> BTreeSet<RodId> {
+    let units = weave.rods[rod].units.into_iter().flatten();
+    units
+        .flat_map(|u| &weave.units[u].contacts)
+        .map(|&c| [weave.contacts[c].ending, weave.contacts[c].passing])
+        .filter(|pair| pair.contains(&rod))
+        .flatten()
+        .collect()
 }
 
 /// The rod with end A on the ground; what rounding adds goes to end B.

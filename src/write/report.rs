@@ -19,7 +19,7 @@ pub struct Report {
     pub turn: f64,
     pub surface: Surface,
     pub fit: Fitted,
-    pub closing: Closed,
+    pub closing: Closing,
     pub measures: Measures,
     pub sawing: Sawing,
     pub dropped: Vec<DroppedUnit>,
@@ -62,14 +62,6 @@ pub struct Fitted {
     pub median_rise: f64,
 }
 
-/// The closing of the contacts.
-#[derive(Clone, Debug, Serialize)]
-pub struct Closed {
-    pub steps: usize,
-    /// Largest error of a gap, as part of the diameter.
-    pub error: f64,
-}
-
 /// The sawing plan.
 #[derive(Clone, Debug, Serialize)]
 pub struct Sawing {
@@ -107,11 +99,6 @@ pub fn fit(fit: &Fit, given: bool) -> Fitted {
         (false, false) => "plain",
     };
     Fitted { edge: fit.edge, by, median_rise: fit.rise }
-}
-
-/// The closing's part of the report.
-pub fn closing(closing: &Closing) -> Closed {
-    Closed { steps: closing.steps, error: closing.error }
 }
 
 /// The sawing plan's part of the report.
