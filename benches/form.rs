@@ -5,16 +5,20 @@
 //! error is that of the worst contact, as part of the rod diameter.
 
 use rodwright::chart::PlanarChart;
+use rodwright::frame::canvas::PlaneCanvas;
 use rodwright::frame::close::{Joint, close};
 use rodwright::frame::fit::{Fit, fit};
-use rodwright::frame::form::{FormSettings, form, patch};
+use rodwright::frame::form::{FormSettings, form};
 use rodwright::frame::layer::Layering;
-use rodwright::frame::{crop::crop, lift::lift, weave::weave};
+use rodwright::frame::{
+    crop::{crop, held},
+    lift::lift,
+    weave::weave,
+};
 use rodwright::pattern::Pattern;
 use rodwright::surface::samples::sample;
 use rodwright::surface::topology::require_disk;
 use rodwright::tiling::Placement;
-use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 /// Rod counts aimed at: those of the paper's Table 1, then larger ones.
@@ -62,33 +66,27 @@ fn row(chart: &PlanarChart, diameter: f64) {
     // Thick rods leave too few units for a fit; the square law still places them.
     let edge = found.map_or_else(|_| 75.0 * (diameter / 3.0).sqrt(), |f: Fit| f.edge);
     let placement = Placement { edge, ..start };
-    let tiling = patch(chart, pattern, &placement);
+    let canvas = PlaneCanvas::new(chart, pattern, placement, turn).expect("under a million");
     let (lift_time, (woven, lifted)) = least(|| {
-        let tiles = crop(&tiling, &placement, turn, chart, &BTreeSet::new());
-        let woven = weave(&tiling, &tiles, turn);
-        let lifted = lift(&woven, &placement, chart).expect("cropped tiles lie on the chart");
+        let tiles = crop(&canvas, &held(&canvas));
+        let woven = weave(&canvas, &tiles).expect("cropped tiles lie on the chart");
+        let lifted = lift(&woven).expect("rods of a regular tile are not parallel");
         (woven, lifted)
     });
     let joints = woven
         .contacts
-        .enumerate()
-        .map(|(id, c)| Joint {
-            over: c.ending,
-            under: c.passing,
-            outward: lifted.normals[id],
-            gap: diameter,
-        })
+        .iter()
+        .map(|c| Joint { over: c.ending, under: c.passing, outward: c.on.normal, gap: diameter })
         .collect();
     let (close_time, closing) = least(|| close(&mut lifted.axes.clone(), &joints));
     let settings = FormSettings {
         diameter,
-        turn,
         overhang: 2.0 * diameter,
         round: 0.5,
         layering: Layering::Follow,
         surface_low: 0.0,
     };
-    let (all_time, _) = least(|| form(chart, pattern, &placement, &settings));
+    let (all_time, _) = least(|| form(&canvas, &settings));
     let (steps, error) = closing.map_or((0, f64::NAN), |c| (c.steps, c.error));
     println!(
         "{:>6} {:>9} {diameter:>9.3} {:>8.1} {:>10.2} {:>10.2} {:>10.2} {steps:>6} {error:>9.1e}",

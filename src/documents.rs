@@ -71,7 +71,7 @@ fn report(design: &Design, model: &Model) -> Report {
         rod_diameter: design.rod,
         turn: design.turn.to_degrees(),
         surface: report::surface(&model.surface, &model.notes, &model.distortion),
-        fit: report::fit(&model.fit, design.unit.is_some()),
+        fit: report::fit(&model.fit),
         closing: model.formed.closing,
         measures: model.measures.clone(),
         sawing: report::sawing(&model.plan),

@@ -6,7 +6,7 @@
 //!
 //! ```
 //! use rodwright::chart::PlanarChart;
-//! use rodwright::frame::{fit::fit, form::{FormSettings, form}, layer::Layering};
+//! use rodwright::frame::{canvas::PlaneCanvas, fit::fit, form::{FormSettings, form}, layer::Layering};
 //! use rodwright::surface::{samples::sample, topology::require_disk};
 //! use rodwright::{pattern::Pattern, tiling::Placement};
 //!
@@ -18,9 +18,10 @@
 //! let start = Placement { origin: [0.0; 2].into(), rotation: 0.0, edge: 20.0 * rod };
 //! let edge = fit(&chart, pattern, &start, turn, rod)?.edge;
 //! let settings = FormSettings {
-//!     diameter: rod, turn, overhang: 6.0, round: 0.5, layering: Layering::Follow, surface_low: 0.0,
+//!     diameter: rod, overhang: 6.0, round: 0.5, layering: Layering::Follow, surface_low: 0.0,
 //! };
-//! let frame = form(&chart, pattern, &Placement { edge, ..start }, &settings)?.frame;
+//! let canvas = PlaneCanvas::new(&chart, pattern, Placement { edge, ..start }, turn)?;
+//! let frame = form(&canvas, &settings)?.frame;
 //! assert!(frame.contacts.iter().all(|c| (c.gap - rod).abs() < 1e-9 * rod));
 //! # Ok(())
 //! # }

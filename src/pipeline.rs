@@ -3,7 +3,8 @@
 
 use crate::chart::{ChartError, Distortion, PlanarChart};
 use crate::design::Design;
-use crate::frame::fit::{Fit, FitError, fit};
+use crate::frame::canvas::{PlaneCanvas, TooManyUnits};
+use crate::frame::fit::{Fit, FitBy, FitError, fit};
 use crate::frame::form::{FormError, FormSettings, Formed, form, median_rise};
 use crate::frame::measure::{Measures, measure};
 use crate::shop::cutlist::{CutError, CutPlan, Stock, plan};
@@ -71,7 +72,9 @@ pub fn build(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, Buil
     let fit = tile_edge(design, &chart)?;
     begin(Step::Form);
     let settings = form_settings(design, &surface);
-    let formed = form(&chart, design.pattern, &placement(design, fit.edge), &settings)?;
+    let placement = placement(design, fit.edge);
+    let canvas = PlaneCanvas::new(&chart, design.pattern, placement, design.turn)?;
+    let formed = form(&canvas, &settings)?;
     begin(Step::Measure);
     let measures = measure(&formed, &Locator::new(&surface));
     begin(Step::Saw);
@@ -109,15 +112,14 @@ fn tile_edge(design: &Design, chart: &PlanarChart) -> Result<Fit, BuildError> {
         let start = placement(design, design.rod);
         return Ok(fit(chart, design.pattern, &start, design.turn, design.rod)?);
     };
-    let (tiles, rise) = median_rise(chart, design.pattern, &placement(design, edge), design.turn)
-        .unwrap_or_default();
-    Ok(Fit { edge, rise, units: tiles.len(), by_rise: false })
+    let canvas = PlaneCanvas::new(chart, design.pattern, placement(design, edge), design.turn)?;
+    let (units, rise) = median_rise(&canvas).unwrap_or_default();
+    Ok(Fit { edge, turn: design.turn, rise, units, by: FitBy::Given })
 }
 
 fn form_settings(design: &Design, surface: &Mesh) -> FormSettings {
     FormSettings {
         diameter: design.rod,
-        turn: design.turn,
         overhang: design.overhang,
         round: design.round,
         layering: design.layer,
@@ -163,6 +165,9 @@ pub enum BuildError {
     /// The tile edge.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// The number of units.
+    #[error(transparent)]
+    Units(#[from] TooManyUnits),
     /// The frame.
     #[error(transparent)]
     Form(#[from] FormError),

@@ -2,6 +2,7 @@
 
 use super::terminal::Terminal;
 use crate::design::Design;
+use crate::frame::fit::FitBy;
 use crate::pipeline::Model;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -31,7 +32,7 @@ pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) 
         ("to buy", format!("{}, {:.1} % waste ({optimal})", buy.join(" + "), 100.0 * plan.waste())),
         ("contacts", format!("{}, worst error {:.1e} of the diameter", m.contacts, m.worst_gap)),
         ("on the ground", format!("{} rods", m.supports)),
-        ("unit", unit(design, model)),
+        ("unit", unit(model)),
         (
             "off the surface",
             format!("{:.1} mm rms, {:.1} mm at most", m.from_surface.rms, m.from_surface.max),
@@ -49,14 +50,18 @@ pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) 
     text
 }
 
-fn unit(design: &Design, model: &Model) -> String {
+fn unit(model: &Model) -> String {
     let fit = &model.fit;
-    let how = if design.unit.is_some() {
-        format!("as given; rods of {:.1} mm would suit it best", fit.rise)
-    } else if fit.by_rise {
-        "fitted to rod and surface".into()
-    } else {
-        "20 diameters: the surface is too flat for the rods to decide".into()
+    let how = match fit.by {
+        FitBy::Given => format!("as given; rods of {:.1} mm would suit it best", fit.rise),
+        FitBy::Edge => "fitted to rod and surface".into(),
+        FitBy::Turn => format!("rods turned by {:.1}° to suit them", fit.turn.to_degrees()),
+        FitBy::TurnLimit => format!(
+            "rods turned by {:.1}°, as far as is safe; {:.1} mm rods would suit it best",
+            fit.turn.to_degrees(),
+            fit.rise
+        ),
+        FitBy::Plain => "plain: the surface is too flat for the rods to decide".into(),
     };
     format!("tile edge {:.1} mm, {how}", fit.edge)
 }

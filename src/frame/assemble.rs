@@ -4,7 +4,6 @@ use super::axis::Axis;
 use super::close::Joint;
 use super::cut::{crossings, seats};
 use super::fault::Fault;
-use super::lift::Lifted;
 use super::weave::Weave;
 use super::{Contact, Frame, Rod, Support, Unit};
 use crate::ids::{ContactId, IdVec, RodId};
@@ -26,7 +25,6 @@ pub struct Ground {
 /// The unit of a contact whose rods are parallel.
 pub fn assemble(
     weave: &Weave,
-    lifted: &Lifted,
     axes: &IdVec<RodId, Axis>,
     joints: &IdVec<ContactId, Joint>,
     on: Ground,
@@ -60,9 +58,9 @@ pub fn assemble(
         .collect();
     let units = weave
         .units
-        .enumerate()
-        .map(|(u, woven)| Unit {
-            center: lifted.centers[u],
+        .iter()
+        .map(|woven| Unit {
+            center: woven.center,
             chirality: woven.chirality,
             rods: woven.rods.clone(),
             contacts: woven.contacts.clone(),

@@ -1,102 +1,64 @@
-//! Which tiles become units (paper, section 4.1): those that lie in the chart, hold
+//! Which tiles become units (paper, section 4.1): those that lie on the surface, hold
 //! together, and hang on to each other.
 
-use crate::chart::Chart;
-use crate::ids::{Id, TileId};
-use crate::pattern::UnitShape;
-use crate::tiling::{Placement, Tiling};
-use nalgebra::Point2;
-use std::collections::BTreeSet;
+use super::canvas::Canvas;
+use crate::ids::{IdVec, TileId};
+use crate::tiling::Net;
 
-/// A tile is tested this much larger than it is, so that the rods at the border
-/// keep a little inside the surface; part of the tile's radius.
-const MARGIN: f64 = 0.04;
-
-/// The tiles to build units on, nearest to the tiling's origin first.
+/// The tiles to build units on, in the order of their rank.
 ///
-/// Tiles in `without` are left out. Units with fewer than two neighbours are
-/// dropped, repeatedly, then all but the largest connected piece.
-pub fn crop(
-    tiling: &Tiling,
-    placement: &Placement,
-    turn: f64,
-    chart: &impl Chart,
-    without: &BTreeSet<TileId>,
-) -> Vec<TileId> {
-    let mut kept: Vec<bool> = tiling
-        .tiles
-        .ids()
-        .map(|t| !without.contains(&t) && lies_in(tiling, t, placement, turn, chart))
-        .collect();
-    drop_loose(tiling, &mut kept);
-    let mut tiles = largest_piece(tiling, &kept);
-    let center = |t: TileId| tiling.tiles[t].center.coords;
-    // Rings of equal distance are told apart by angle; distances are compared in
-    // steps that are coarse against rounding and fine against the tiling.
-    let ring = |t: TileId| (center(t).norm() * 1e6).round() as i64;
-    let angle = |t: TileId| center(t).y.atan2(center(t).x);
-    tiles.sort_by(|&a, &b| ring(a).cmp(&ring(b)).then(angle(a).total_cmp(&angle(b))));
-    tiles
+/// Of those in `held`, tiles with fewer than two neighbours are dropped, repeatedly,
+/// then all but the largest connected piece.
+pub fn crop(canvas: &impl Canvas, held: &IdVec<TileId, bool>) -> Vec<TileId> {
+    let mut kept = held.clone();
+    drop_loose(canvas.net(), &mut kept);
+    let tiles = largest_piece(canvas.net(), &kept);
+    let ranks: Vec<[f64; 2]> = tiles.iter().map(|&t| canvas.rank(t)).collect();
+    let mut order: Vec<usize> = (0..tiles.len()).collect();
+    order.sort_by(|&i, &j| {
+        let ([ring, angle], [other_ring, other_angle]) = (ranks[i], ranks[j]);
+        ring.total_cmp(&other_ring).then(angle.total_cmp(&other_angle)).then(i.cmp(&j))
+    });
+    order.into_iter().map(|i| tiles[i]).collect()
 }
 
-/// Whether every point of the tile that the lift will ask for is in the chart.
-fn lies_in(
-    tiling: &Tiling,
-    tile: TileId,
-    placement: &Placement,
-    turn: f64,
-    chart: &impl Chart,
-) -> bool {
-    let shape = UnitShape::new(tiling.tiles[tile].corners.len(), turn);
-    let tile = &tiling.tiles[tile];
-    let grown = |p: Point2<f64>| p + (p - tile.center) * MARGIN;
-    let corners = tile.corners.iter().map(|&v| grown(tiling.vertices[v]));
-    let edges = tile.edges.iter().flat_map(|&e| {
-        let middle = tiling.midpoint(e);
-        let inward = (tile.center - middle).normalize();
-        let axis = nalgebra::Rotation2::new(turn) * inward;
-        [grown(middle), middle + axis * shape.middle, middle + axis * shape.ending]
-    });
-    let mut points = std::iter::once(tile.center).chain(corners).chain(edges);
-    points.all(|p| chart.lift(placement.apply(p)).is_some())
+/// The tiles that lie on the surface.
+pub fn held(canvas: &impl Canvas) -> IdVec<TileId, bool> {
+    canvas.net().tiles.ids().map(|t| canvas.holds(t)).collect()
 }
 
 /// Tiles on the other side of a tile's edges, where they are kept.
 fn neighbours<'a>(
-    tiling: &'a Tiling,
-    kept: &'a [bool],
+    net: &'a Net,
+    kept: &'a IdVec<TileId, bool>,
     tile: TileId,
 ) -> impl Iterator<Item = TileId> + 'a {
-    tiling.tiles[tile].edges.iter().filter_map(move |&e| {
-        let edge = &tiling.edges[e];
-        let other = if edge.left == tile { edge.right? } else { edge.left };
-        kept[other.index()].then_some(other)
-    })
+    net.neighbours(tile).filter(|&t| kept[t])
 }
 
-fn drop_loose(tiling: &Tiling, kept: &mut [bool]) {
-    let mut todo: Vec<TileId> = tiling.tiles.ids().filter(|t| kept[t.index()]).collect();
+fn drop_loose(net: &Net, kept: &mut IdVec<TileId, bool>) {
+    let mut todo: Vec<TileId> = kept.ids().filter(|&t| kept[t]).collect();
     while let Some(tile) = todo.pop() {
-        if kept[tile.index()] && neighbours(tiling, kept, tile).count() < 2 {
-            kept[tile.index()] = false;
-            todo.extend(neighbours(tiling, kept, tile));
+        if kept[tile] && neighbours(net, kept, tile).count() < 2 {
+            kept[tile] = false;
+            todo.extend(neighbours(net, kept, tile));
         }
     }
 }
 
-fn largest_piece(tiling: &Tiling, kept: &[bool]) -> Vec<TileId> {
-    let mut seen = vec![false; kept.len()];
+fn largest_piece(net: &Net, kept: &IdVec<TileId, bool>) -> Vec<TileId> {
+    let mut seen: IdVec<TileId, bool> = vec![false; kept.len()].into();
     let mut largest = Vec::new();
-    for start in tiling.tiles.ids() {
-        if !kept[start.index()] || seen[start.index()] {
+    for start in kept.ids() {
+        if !kept[start] || seen[start] {
             continue;
         }
-        seen[start.index()] = true;
+        seen[start] = true;
         let (mut piece, mut next) = (vec![start], 0);
         while let Some(&tile) = piece.get(next) {
             next += 1;
-            for other in neighbours(tiling, kept, tile) {
-                if !std::mem::replace(&mut seen[other.index()], true) {
+            for other in neighbours(net, kept, tile) {
+                if !std::mem::replace(&mut seen[other], true) {
                     piece.push(other);
                 }
             }
@@ -111,48 +73,35 @@ fn largest_piece(tiling: &Tiling, kept: &[bool]) -> Vec<TileId> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chart::SurfacePoint;
-    use crate::surface::Vector3;
-    use crate::tiling::UniformTiling;
+    use crate::frame::canvas::PlaneCanvas;
+    use crate::frame::canvas::fixture::Rooms;
+    use crate::pattern::Pattern;
+    use crate::tiling::Placement;
 
-    /// Two flat rooms side by side, joined by a passage one tile wide.
-    struct Rooms;
-
-    impl Chart for Rooms {
-        fn bounds(&self) -> [Point2<f64>; 2] {
-            [Point2::new(-5.0, -5.0), Point2::new(20.0, 5.0)]
-        }
-
-        fn lift(&self, p: Point2<f64>) -> Option<SurfacePoint> {
-            let room = |x0: f64, x1: f64, y: f64| x0 < p.x && p.x < x1 && p.y.abs() < y;
-            (room(-4.6, 4.6, 4.6) || room(4.0, 10.0, 0.6) || room(9.0, 13.6, 2.6))
-                .then(|| SurfacePoint { position: [p.x, p.y, 0.0].into(), normal: Vector3::z() })
-        }
-    }
-
-    fn crop_rooms(without: &BTreeSet<TileId>) -> (Tiling, Vec<TileId>) {
-        let [lo, hi] = Rooms.bounds();
-        let tiling = UniformTiling::named("4.4.4.4").unwrap().patch(lo, hi);
-        let placement = Placement { origin: Point2::new(0.5, 0.5), rotation: 0.0, edge: 1.0 };
-        let kept = crop(&tiling, &placement, 0.3, &Rooms, without);
-        (tiling, kept)
+    fn rooms() -> PlaneCanvas<'static, Rooms> {
+        let placement = Placement { origin: [0.5; 2].into(), rotation: 0.0, edge: 1.0 };
+        let squares = Pattern::named("4.4.4.4").expect("in the library");
+        PlaneCanvas::new(&Rooms, squares, placement, 0.3).expect("few tiles")
     }
 
     #[test]
     fn a_chain_of_single_tiles_joins_rooms_and_its_loss_parts_them() {
-        let (tiling, kept) = crop_rooms(&BTreeSet::new());
-        let in_passage = |t: &TileId| (5.0..9.0).contains(&tiling.tiles[*t].center.x);
-        assert!(kept.iter().any(in_passage));
-        let cut: BTreeSet<TileId> = kept.iter().copied().filter(in_passage).take(1).collect();
-        let (tiling, kept) = crop_rooms(&cut);
-        assert!(kept.iter().all(|&t| tiling.tiles[t].center.x < 5.0), "the larger room stays");
+        let canvas = rooms();
+        let x = |t: TileId| canvas.middle(t).x;
+        let mut held = held(&canvas);
+        let kept = crop(&canvas, &held);
+        let passage = kept.iter().find(|&&t| (5.0..9.0).contains(&x(t)));
+        held[*passage.expect("the passage is kept")] = false;
+        let kept = crop(&canvas, &held);
+        assert!(kept.iter().all(|&t| x(t) < 5.0), "the larger room stays");
         assert!(kept.len() >= 64);
     }
 
     #[test]
     fn tiles_come_from_the_middle_outwards() {
-        let (tiling, kept) = crop_rooms(&BTreeSet::new());
-        let far: Vec<f64> = kept.iter().map(|&t| tiling.tiles[t].center.coords.norm()).collect();
+        let canvas = rooms();
+        let kept = crop(&canvas, &held(&canvas));
+        let far: Vec<f64> = kept.iter().map(|&t| canvas.middle(t).coords.norm()).collect();
         assert!(far.windows(2).all(|w| w[0] <= w[1] + 1e-6));
     }
 }

@@ -4,23 +4,41 @@
 //! rise equals the diameter, rods touch without being moved much: thicker ones
 //! would push the frame off the surface, thinner ones let it sink.
 
-use super::form::{MOST_UNITS, median_rise, most_units};
+use super::canvas::{MOST_UNITS, PlaneCanvas, most_units};
+use super::form::median_rise;
 use crate::chart::Chart;
 use crate::pattern::Pattern;
 use crate::tiling::Placement;
 use thiserror::Error;
 
-/// The tile edge found, and what it rests on.
+/// The size of the units and the turn of their rods, and what they rest on.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Fit {
     /// Mean tile edge, mm.
     pub edge: f64,
-    /// Median rise of the contacts at that edge, mm: the diameter that would suit.
+    /// Turn of the rods, radians.
+    pub turn: f64,
+    /// Median rise of the contacts then, mm: the diameter that would suit.
     pub rise: f64,
     /// Number of units.
     pub units: usize,
-    /// Whether the rise decided. On a surface without curvature it cannot.
-    pub by_rise: bool,
+    /// What was found, and what was given.
+    pub by: FitBy,
+}
+
+/// What a fit rests on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum FitBy {
+    /// The tile edge at which the rise equals the diameter.
+    Edge,
+    /// The turn at which it does; the surface has its own tiles.
+    Turn,
+    /// The least or greatest turn that is safe: the rods would suit another one better.
+    TurnLimit,
+    /// The surface is too flat for the rise to decide.
+    Plain,
+    /// The user.
+    Given,
 }
 
 /// No tile edge suits.
@@ -81,8 +99,9 @@ pub fn fit(
     diameter: f64,
 ) -> Result<Fit, FitError> {
     let try_edge = |edge: f64| {
-        let (tiles, rise) = median_rise(chart, pattern, &Placement { edge, ..*placement }, turn)?;
-        let fit = Fit { edge, rise, units: tiles.len(), by_rise: true };
+        let placement = Placement { edge, ..*placement };
+        let (units, rise) = median_rise(&PlaneCanvas::new(chart, pattern, placement, turn).ok()?)?;
+        let fit = Fit { edge, turn, rise, units, by: FitBy::Edge };
         (fit.units >= LIKENESS).then_some(fit)
     };
     let room = LEAST_EDGE * diameter;
@@ -166,7 +185,7 @@ fn plain(
     try_edge: impl Fn(f64) -> Option<Fit>,
 ) -> Result<Fit, FitError> {
     match try_edge(PLAIN_EDGE * diameter) {
-        Some(fit) => Ok(Fit { by_rise: false, ..fit }),
+        Some(fit) => Ok(Fit { by: FitBy::Plain, ..fit }),
         None => {
             let suits = largest.rise.max(largest.edge / PLAIN_EDGE);
             Err(FitError::TooThick { diameter, suits })

@@ -3,32 +3,27 @@
 
 use super::assemble::{Ground, assemble};
 use super::axis::Axis;
+use super::canvas::{Canvas, Sizing};
 use super::clash::clashes;
 use super::close::{CloseError, Closing, Joint, close};
-use super::crop::crop;
+use super::crop::{crop, held};
 use super::cut::{crossings, cut, disorder, seats};
 use super::fault::{Fault, cover};
 use super::layer::{Layering, layer};
-use super::lift::{Lifted, lift};
+use super::lift::{Parallel, lift};
 use super::stand::{Standing, ground_level, stand};
-use super::weave::{Weave, weave};
+use super::weave::{Weave, WovenUnit, weave};
 use super::{Dropped, Frame};
-use crate::chart::Chart;
 use crate::ids::{ContactId, IdVec, RodId, TileId};
 use crate::linalg::LinalgError;
-use crate::pattern::{Pattern, UnitShape};
-use crate::tiling::{Placement, Tiling};
-use nalgebra::Point2;
 use std::collections::BTreeSet;
 use thiserror::Error;
 
-/// What a frame is made from, besides surface, pattern and placement. Lengths in mm.
+/// What a frame is made from, besides its canvas. Lengths in mm.
 #[derive(Clone, Copy, Debug)]
 pub struct FormSettings {
     /// Rod diameter.
     pub diameter: f64,
-    /// Turn of the rods, radians.
-    pub turn: f64,
     /// Rod left beyond its last contact.
     pub overhang: f64,
     /// Rod lengths are multiples of this; 0 for any length.
@@ -58,29 +53,36 @@ pub enum FormError {
     /// Hardly a unit fits the surface.
     #[error(
         "only {units} units of edge {edge:.1} mm fit the surface, and a frame needs at least \
-         {least}. Use smaller units (--unit), thinner rods (--rod) or a larger model (--span)"
+         {least}. Use {smaller}, thinner rods (--rod) or a larger model (--span)"
     )]
-    TooFewUnits { units: usize, least: usize, edge: f64 },
+    TooFewUnits { units: usize, least: usize, edge: f64, smaller: &'static str },
     /// The units have no room for the rods.
     #[error(
         "units of edge {edge:.1} mm are too small for {diameter} mm rods: the contacts of a unit \
-         of {sides} rods would lie {apart:.1} mm apart. Use an edge of at least {least:.1} mm \
-         (--unit), a larger turn (--turn) or thinner rods (--rod)"
+         of {sides} rods would lie {apart:.1} mm apart. Use {larger}, with an edge of at least \
+         {least:.1} mm, a larger turn (--turn) or thinner rods (--rod)"
     )]
-    TooTight { edge: f64, diameter: f64, sides: usize, apart: f64, least: f64 },
-    /// More units than can be laid out.
-    #[error(
-        "units of edge {edge} mm would be some {about:.0} on this surface, more than the \
-         {MOST_UNITS} that fit in memory. Use larger units (--unit) or thicker rods (--rod)"
-    )]
-    TooManyUnits { edge: f64, about: f64 },
+    TooTight {
+        edge: f64,
+        diameter: f64,
+        sides: usize,
+        apart: f64,
+        least: f64,
+        larger: &'static str,
+    },
     /// Too much had to be left out.
     #[error(
         "{dropped} of {total} units of edge {edge:.1} mm do not work with {diameter} mm rods; the \
-         first: {first}. Leave out --unit to let the units be fitted to the rods, or try another \
-         turn (--turn), a shorter overhang (--overhang) or another pattern (--pattern)"
+         first: {first}. {advice}, or try another turn (--turn) or a shorter overhang (--overhang)"
     )]
-    TooManyDropped { dropped: usize, total: usize, edge: f64, diameter: f64, first: String },
+    TooManyDropped {
+        dropped: usize,
+        total: usize,
+        edge: f64,
+        diameter: f64,
+        first: String,
+        advice: &'static str,
+    },
     /// A linear system could not be solved.
     #[error("the contacts could not be closed: {0}")]
     Linear(#[from] LinalgError),
@@ -88,9 +90,6 @@ pub enum FormError {
 
 /// Fewest units that make a frame: three, so that a rod can lie between two.
 const LEAST_UNITS: usize = 3;
-
-/// Most tiles that are laid out: some gigabytes. More can only be a slip of a unit.
-pub const MOST_UNITS: usize = 1_000_000;
 
 /// Largest part of the units that may be left out before the whole is refused.
 /// More, and what remains is not the surface that was asked for.
@@ -107,120 +106,140 @@ const ENGAGEMENT: f64 = 1.0;
 /// Longest piece added to a rod so that it stands on the ground, in tile edges.
 const REACH: f64 = 1.5;
 
-/// Builds a frame of a pattern on a chart.
+/// Builds a frame on a canvas.
 ///
 /// # Errors
 /// [`FormError`] when too few units fit, or too many fail.
-pub fn form(
-    chart: &impl Chart,
-    pattern: &Pattern,
-    placement: &Placement,
-    settings: &FormSettings,
-) -> Result<Formed, FormError> {
-    require_room(pattern, placement, settings)?;
-    let about = most_units(chart, placement.edge);
-    if about > MOST_UNITS as f64 {
-        return Err(FormError::TooManyUnits { edge: placement.edge, about });
-    }
-    let tiling = patch(chart, pattern, placement);
-    let mut without = BTreeSet::new();
+pub fn form(canvas: &impl Canvas, settings: &FormSettings) -> Result<Formed, FormError> {
+    let mut held = held(canvas);
     let mut dropped: Vec<Dropped> = Vec::new();
     let mut total = None;
     loop {
-        let tiles = crop(&tiling, placement, settings.turn, chart, &without);
+        let tiles = crop(canvas, &held);
         if tiles.len() < LEAST_UNITS && dropped.is_empty() {
-            let (units, least) = (tiles.len(), LEAST_UNITS);
-            return Err(FormError::TooFewUnits { units, least, edge: placement.edge });
+            return Err(too_few(tiles.len(), canvas));
         }
-        let total = *total.get_or_insert(tiles.len());
-        let weave = weave(&tiling, &tiles, settings.turn);
-        let faults = match attempt(chart, &weave, placement, settings)? {
+        let all = *total.get_or_insert(tiles.len());
+        let lost = |more: usize| (dropped.len() + more) as f64 > DROPPED_PART * all as f64;
+        let failing = match attempt(canvas, &tiles, settings)? {
             Ok(mut formed) => {
                 formed.frame.dropped = dropped;
                 return Ok(formed);
             }
-            Err(faults) => faults,
+            Err(failing) => failing,
         };
-        let failing = cover(&faults);
-        let lost = dropped.len() + failing.len();
-        if lost as f64 > DROPPED_PART * total as f64 || tiles.len() <= LEAST_UNITS {
-            return Err(too_many(lost, total, &failing[0].1, placement, settings));
+        if lost(failing.all.len()) || tiles.len() <= LEAST_UNITS {
+            let dropped = dropped.len() + failing.all.len();
+            return Err(too_many(dropped, all, &failing.all[0].1, canvas, settings));
         }
-        for (unit, reason) in failing.into_iter().take(1 + lost / AT_ONCE) {
-            let woven = &weave.units[unit];
-            without.insert(woven.tile);
-            let center = chart.lift(placement.apply(woven.center));
-            let center = center.map_or_else(Default::default, |c| c.position);
-            dropped.push(Dropped { center, reason });
-        }
-    }
-}
-
-/// Refuses units whose contacts lie nearer together than the rods are thick.
-fn require_room(
-    pattern: &Pattern,
-    placement: &Placement,
-    settings: &FormSettings,
-) -> Result<(), FormError> {
-    let (edge, diameter) = (placement.edge, settings.diameter);
-    for sides in pattern.tiling().polygons() {
-        let shape = UnitShape::new(sides, settings.turn);
-        let side = shape.ending - shape.passing;
-        if side * edge < ENGAGEMENT * diameter {
-            let least = ENGAGEMENT * diameter / side;
-            return Err(FormError::TooTight { edge, diameter, sides, apart: side * edge, least });
+        let at_once = failing.at_once.unwrap_or(1 + (dropped.len() + failing.all.len()) / AT_ONCE);
+        for (tile, reason) in failing.all.into_iter().take(at_once) {
+            held[tile] = false;
+            let center = canvas.place(tile, canvas.middle(tile));
+            dropped.push(Dropped {
+                center: center.map_or_else(Default::default, |c| c.position),
+                reason,
+            });
         }
     }
-    Ok(())
 }
 
-/// An upper bound to the number of tiles of this edge on a chart: as if all were
-/// triangles, in the box round it.
-pub fn most_units(chart: &impl Chart, edge: f64) -> f64 {
-    let [lo, hi] = chart.bounds();
-    let triangle = 3f64.sqrt() / 4.0 * edge * edge;
-    (hi.x - lo.x) * (hi.y - lo.y) / triangle
+/// Tiles without which the rest may work, each with its reason.
+struct Failing {
+    all: Vec<(TileId, String)>,
+    /// How many to leave out before the next try; by default a few.
+    at_once: Option<usize>,
 }
 
-/// The tiles over the whole chart.
-pub fn patch(chart: &impl Chart, pattern: &Pattern, placement: &Placement) -> Tiling {
-    let [lo, hi] = chart.bounds();
-    let corners = [(lo.x, lo.y), (lo.x, hi.y), (hi.x, lo.y), (hi.x, hi.y)];
-    let corners = corners.map(|(x, y)| placement.invert(Point2::new(x, y)));
-    let low = corners[1..].iter().fold(corners[0], |m, p| m.inf(p));
-    let high = corners[1..].iter().fold(corners[0], |m, p| m.sup(p));
-    pattern.tiling().patch(low, high)
+fn too_few(units: usize, canvas: &impl Canvas) -> FormError {
+    let Sizing { smaller, .. } = canvas.sizing();
+    FormError::TooFewUnits { units, least: LEAST_UNITS, edge: canvas.edge(), smaller }
 }
 
 fn too_many(
     dropped: usize,
     total: usize,
     first: &str,
-    placement: &Placement,
+    canvas: &impl Canvas,
     settings: &FormSettings,
 ) -> FormError {
     FormError::TooManyDropped {
         dropped,
         total,
-        edge: placement.edge,
+        edge: canvas.edge(),
         diameter: settings.diameter,
         first: first.to_string(),
+        advice: canvas.sizing().fitting,
     }
 }
 
-/// One try at a frame: the frame, or what is wrong with which units.
-fn attempt(
-    chart: &impl Chart,
+/// Refuses units whose contacts lie nearer together than the rods are thick, where
+/// they are too many to be left out.
+fn require_room(
+    canvas: &impl Canvas,
     weave: &Weave,
-    placement: &Placement,
+    settings: &FormSettings,
+) -> Result<(), FormError> {
+    let (edge, diameter) = (canvas.edge(), settings.diameter);
+    let side = |unit: &WovenUnit, i: usize| {
+        let [a, b] = [i, i + 1].map(|i| unit.contacts[i % unit.contacts.len()]);
+        (weave.contacts[a].on.position - weave.contacts[b].on.position).norm()
+    };
+    let mut sides: Vec<(f64, usize)> = weave
+        .units
+        .iter()
+        .map(|unit| {
+            let n = unit.contacts.len();
+            ((0..n).map(|i| side(unit, i)).fold(f64::INFINITY, f64::min), n)
+        })
+        .collect();
+    sides.sort_by(|p, q| p.0.total_cmp(&q.0));
+    let (apart, sides) = sides[(DROPPED_PART * sides.len() as f64) as usize];
+    if apart >= ENGAGEMENT * diameter {
+        return Ok(());
+    }
+    let least = edge * ENGAGEMENT * diameter / apart;
+    let Sizing { larger, .. } = canvas.sizing();
+    Err(FormError::TooTight { edge, diameter, sides, apart, least, larger })
+}
+
+/// One try at a frame: the frame, or which tiles fail.
+fn attempt(
+    canvas: &impl Canvas,
+    tiles: &[TileId],
+    settings: &FormSettings,
+) -> Result<Result<Formed, Failing>, FormError> {
+    let weave = match weave(canvas, tiles) {
+        Ok(weave) => weave,
+        Err(failed) => {
+            let all: Vec<_> = failed.into_iter().map(|f| (f.tile, f.reason.into())).collect();
+            let at_once = Some(all.len());
+            return Ok(Err(Failing { all, at_once }));
+        }
+    };
+    require_room(canvas, &weave, settings)?;
+    let tile_of = |(unit, reason)| (weave.units[unit].tile, reason);
+    let failing = |faults: Vec<Fault>| Failing {
+        all: cover(&faults).into_iter().map(tile_of).collect(),
+        at_once: None,
+    };
+    Ok(close_and_finish(&weave, canvas.edge(), settings)?.map_err(failing))
+}
+
+/// The frame of a weave, or what is wrong with which of its units.
+fn close_and_finish(
+    weave: &Weave,
+    edge: f64,
     settings: &FormSettings,
 ) -> Result<Result<Formed, Vec<Fault>>, FormError> {
-    let lifted = match lift(weave, placement, chart) {
+    let lifted = match lift(weave) {
         Ok(lifted) => lifted,
-        Err(e) => return Ok(Err(vec![Fault { units: vec![e.unit], reason: e.reason.into() }])),
+        Err(Parallel(unit)) => {
+            return Ok(Err(vec![Fault { units: vec![unit], reason: "has parallel rods".into() }]));
+        }
     };
     let rises = lifted.rises(weave);
-    let joints = joints(weave, &lifted, &layer(&rises, settings.layering), settings.diameter);
+    let joints = joints(weave, &layer(&rises, settings.layering), settings.diameter);
     let mut axes = lifted.axes.clone();
     let closing = match close(&mut axes, &joints) {
         Ok(closing) => closing,
@@ -236,7 +255,7 @@ fn attempt(
         .zip(&axes)
         .flat_map(|(old, new)| [(new.a - old.a).norm(), (new.b - old.b).norm()])
         .collect();
-    Ok(finish(weave, &lifted, &axes, &joints, placement, settings).map(|frame| Formed {
+    Ok(finish(weave, &axes, &joints, edge, settings).map(|frame| Formed {
         frame,
         closing,
         moves,
@@ -251,7 +270,6 @@ fn open_contact(weave: &Weave, contact: ContactId) -> Fault {
 
 fn joints(
     weave: &Weave,
-    lifted: &Lifted,
     ending_over: &IdVec<ContactId, bool>,
     diameter: f64,
 ) -> IdVec<ContactId, Joint> {
@@ -261,7 +279,7 @@ fn joints(
         .map(|(id, c)| {
             let (over, under) =
                 if ending_over[id] { (c.ending, c.passing) } else { (c.passing, c.ending) };
-            Joint { over, under, outward: lifted.normals[id], gap: diameter }
+            Joint { over, under, outward: c.on.normal, gap: diameter }
         })
         .collect()
 }
@@ -269,10 +287,9 @@ fn joints(
 /// Cuts the closed axes, checks them, lets them stand, and puts the frame together.
 fn finish(
     weave: &Weave,
-    lifted: &Lifted,
     closed: &IdVec<RodId, Axis>,
     joints: &IdVec<ContactId, Joint>,
-    placement: &Placement,
+    edge: f64,
     settings: &FormSettings,
 ) -> Result<Frame, Vec<Fault>> {
     let FormSettings { diameter, overhang, round, .. } = *settings;
@@ -290,10 +307,10 @@ fn finish(
         return Err(faults);
     }
     let ground = ground_level(settings.surface_low, &axes);
-    let how = Standing { ground, reach: REACH * placement.edge, diameter, round };
+    let how = Standing { ground, reach: REACH * edge, diameter, round };
     let supports = stand(weave, &mut axes, &how);
     let on = Ground { diameter, ground, supports };
-    assemble(weave, lifted, &axes, joints, on).map_err(|fault| vec![fault])
+    assemble(weave, &axes, joints, on).map_err(|fault| vec![fault])
 }
 
 fn clash_faults(
@@ -315,25 +332,16 @@ fn clash_faults(
         .collect()
 }
 
-/// The tiles that a pattern would have on a chart, and its median rise, mm: what
-/// [`fit`](super::fit) looks at. `None` where it has too few or too many.
-pub fn median_rise(
-    chart: &impl Chart,
-    pattern: &Pattern,
-    placement: &Placement,
-    turn: f64,
-) -> Option<(Vec<TileId>, f64)> {
-    if most_units(chart, placement.edge) > MOST_UNITS as f64 {
-        return None;
-    }
-    let tiling = patch(chart, pattern, placement);
-    let tiles = crop(&tiling, placement, turn, chart, &BTreeSet::new());
+/// The number of units that a canvas would have, and their median rise, mm: what
+/// fitting looks at. `None` where it has too few, or units that cannot be woven.
+pub fn median_rise(canvas: &impl Canvas) -> Option<(usize, f64)> {
+    let tiles = crop(canvas, &held(canvas));
     if tiles.len() < LEAST_UNITS {
         return None;
     }
-    let weave = weave(&tiling, &tiles, turn);
+    let weave = weave(canvas, &tiles).ok()?;
     let mut rises: Vec<f64> =
-        lift(&weave, placement, chart).ok()?.rises(&weave).iter().map(|rise| rise.abs()).collect();
+        lift(&weave).ok()?.rises(&weave).iter().map(|rise| rise.abs()).collect();
     rises.sort_by(f64::total_cmp);
-    Some((tiles, rises[rises.len() / 2]))
+    Some((tiles.len(), rises[rises.len() / 2]))
 }

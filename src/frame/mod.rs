@@ -4,6 +4,7 @@
 
 pub mod assemble;
 pub mod axis;
+pub mod canvas;
 pub mod clash;
 pub mod close;
 pub mod crop;

@@ -1,12 +1,14 @@
-//! Rods, units and contacts in the plane: who meets whom, before any height is known.
+//! Rods, units and contacts: who meets whom, and the places on the surface through
+//! which the rods are to run (paper, section 4.2).
 
 use super::Chirality;
+use super::canvas::Canvas;
+use crate::chart::SurfacePoint;
 use crate::ids::{ContactId, Id, IdVec, RodId, TileEdgeId, TileId, UnitId};
-use crate::pattern::UnitShape;
-use crate::tiling::{Tile, TileEdge, Tiling};
-use nalgebra::{Point2, Rotation2, Vector2};
+use crate::pattern::FlatUnit;
+use crate::surface::Point3;
 
-/// A flat reciprocal pattern, in tile edges.
+/// A reciprocal pattern on its surface, before any rod is straight.
 #[derive(Clone, Debug, Default)]
 pub struct Weave {
     /// The rods.
@@ -17,17 +19,17 @@ pub struct Weave {
     pub units: IdVec<UnitId, WovenUnit>,
 }
 
-/// A rod in the plane, in tile edges.
+/// A rod across a tile edge.
 #[derive(Clone, Debug)]
 pub struct WovenRod {
     /// The unit at end A and the unit at end B. A border rod has none at end A.
     pub units: [Option<UnitId>; 2],
-    /// Two points of the axis, towards end A and towards end B: the middles of its
+    /// Two places of the surface, towards end A and towards end B: the middles of its
     /// sides of the two inner polygons; for a border rod, first its tile edge.
-    pub through: [Point2<f64>; 2],
+    pub through: [Point3; 2],
 }
 
-/// A contact in the plane.
+/// A contact.
 #[derive(Clone, Debug)]
 pub struct WovenContact {
     /// The rod that ends there, but for its overhang.
@@ -36,17 +38,17 @@ pub struct WovenContact {
     pub passing: RodId,
     /// The unit.
     pub unit: UnitId,
-    /// Where, in tile edges.
-    pub at: Point2<f64>,
+    /// Where on the surface.
+    pub on: SurfacePoint,
 }
 
-/// A unit in the plane.
+/// A unit.
 #[derive(Clone, Debug)]
 pub struct WovenUnit {
     /// The tile that hosts it.
     pub tile: TileId,
-    /// Its middle, in tile edges.
-    pub center: Point2<f64>,
+    /// Its middle on the surface.
+    pub center: SurfacePoint,
     /// Which way its rods run.
     pub chirality: Chirality,
     /// Its rods, counter-clockwise.
@@ -55,95 +57,130 @@ pub struct WovenUnit {
     pub contacts: Vec<ContactId>,
 }
 
-/// Weaves shared rods, turned by `turn` radians, on the given tiles. Units and rods
-/// are numbered in the order of the tiles.
-pub fn weave(tiling: &Tiling, tiles: &[TileId], turn: f64) -> Weave {
-    let mut unit_of: IdVec<TileId, Option<UnitId>> = vec![None; tiling.tiles.len()].into();
+/// Why a tile cannot become a unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unweavable {
+    /// The tile.
+    pub tile: TileId,
+    /// What is wrong, as a clause.
+    pub reason: &'static str,
+}
+
+/// A tile with its rods laid out and placed on the surface.
+struct Placed {
+    center: SurfacePoint,
+    counter_clockwise: bool,
+    /// For each edge, where the rod crosses it, and the middle of the rod's side.
+    rods: Vec<[Point3; 2]>,
+    contacts: Vec<SurfacePoint>,
+}
+
+/// Weaves shared rods on the given tiles. Units and rods are numbered in the order of
+/// the tiles.
+///
+/// # Errors
+/// All tiles that reach beyond the surface, or whose rods form no circuit.
+pub fn weave(canvas: &impl Canvas, tiles: &[TileId]) -> Result<Weave, Vec<Unweavable>> {
+    let net = canvas.net();
+    let (mut placed, mut failed) = (Vec::with_capacity(tiles.len()), Vec::new());
+    for &tile in tiles {
+        match place(canvas, tile) {
+            Ok(unit) => placed.push(unit),
+            Err(fault) => failed.push(fault),
+        }
+    }
+    if !failed.is_empty() {
+        return Err(failed);
+    }
+    let mut unit_of: IdVec<TileId, Option<UnitId>> = vec![None; net.tiles.len()].into();
     for (i, &tile) in tiles.iter().enumerate() {
         unit_of[tile] = Some(UnitId::new(i));
     }
-    let mut rod_of: IdVec<TileEdgeId, Option<RodId>> = vec![None; tiling.edges.len()].into();
-    let mut weave = Weave::default();
-    for &tile in tiles {
-        let edges = &tiling.tiles[tile].edges;
-        let rods: Vec<RodId> = edges
-            .iter()
-            .map(|&e| {
-                *rod_of[e].get_or_insert_with(|| weave.rods.push(rod(tiling, e, &unit_of, turn)))
-            })
-            .collect();
-        add_unit(&mut weave, tiling, tile, rods, turn);
-    }
-    weave
-}
-
-/// The rod across a tile edge.
-fn rod(
-    tiling: &Tiling,
-    edge: TileEdgeId,
-    unit_of: &IdVec<TileId, Option<UnitId>>,
-    turn: f64,
-) -> WovenRod {
-    let &TileEdge { left, right, .. } = &tiling.edges[edge];
-    let middle = tiling.midpoint(edge);
-    let outward = direction(tiling, edge, turn);
-    let reach = |tile: TileId| UnitShape::new(tiling.tiles[tile].corners.len(), turn).middle;
-    let left = unit_of[left].map(|u| (u, middle - outward * reach(left)));
-    let right = right.and_then(|t| unit_of[t].map(|u| (u, middle + outward * reach(t))));
-    match (left, right) {
-        (Some((a, p)), Some((b, q))) => WovenRod { units: [Some(a), Some(b)], through: [p, q] },
-        (Some((u, p)), None) | (None, Some((u, p))) => {
-            WovenRod { units: [None, Some(u)], through: [middle, p] }
+    // Where the rod of an edge runs, seen from one of its two tiles.
+    let seen = |edge: TileEdgeId, tile: TileId| {
+        let unit = unit_of[tile]?;
+        let side = net.tiles[tile].edges.iter().position(|&e| e == edge)?;
+        Some((unit, placed[unit.index()].rods[side]))
+    };
+    let rod = |e: TileEdgeId| {
+        let edge = &net.edges[e];
+        match (seen(e, edge.left), edge.right.and_then(|t| seen(e, t))) {
+            (Some((a, [_, p])), Some((b, [_, q]))) => {
+                WovenRod { units: [Some(a), Some(b)], through: [p, q] }
+            }
+            (Some((unit, through)), None) | (None, Some((unit, through))) => {
+                WovenRod { units: [None, Some(unit)], through }
+            }
+            (None, None) => unreachable!("rods are made for the edges of tiles that have a unit"),
         }
-        (None, None) => unreachable!("rods are made for the edges of tiles that have a unit"),
+    };
+    let mut rod_of: IdVec<TileEdgeId, Option<RodId>> = vec![None; net.edges.len()].into();
+    let mut weave = Weave::default();
+    for (&tile, placed) in tiles.iter().zip(&placed) {
+        let rods = net.tiles[tile]
+            .edges
+            .iter()
+            .map(|&e| *rod_of[e].get_or_insert_with(|| weave.rods.push(rod(e))))
+            .collect();
+        add_unit(&mut weave, tile, placed, rods);
     }
+    Ok(weave)
 }
 
-/// Unit direction of the rod across an edge, from its left tile to its right one.
-fn direction(tiling: &Tiling, edge: TileEdgeId, turn: f64) -> Vector2<f64> {
-    let [from, to] = tiling.edges[edge].ends.map(|v| tiling.vertices[v]);
-    let outward = Rotation2::new(-std::f64::consts::FRAC_PI_2) * (to - from).normalize();
-    Rotation2::new(turn) * outward
-}
-
-fn add_unit(weave: &mut Weave, tiling: &Tiling, tile: TileId, rods: Vec<RodId>, turn: f64) {
-    let unit = UnitId::new(weave.units.len());
-    let Tile { edges, center, .. } = &tiling.tiles[tile];
-    // Each rod as seen from this tile: where it enters, and the way inwards.
-    let lines: Vec<(Point2<f64>, Vector2<f64>)> = edges
+fn place(canvas: &impl Canvas, tile: TileId) -> Result<Placed, Unweavable> {
+    let outside = Unweavable { tile, reason: "reaches beyond the surface" };
+    let uneven = Unweavable { tile, reason: "its tile is too uneven: the rods form no circuit" };
+    let on = |p| canvas.place(tile, p).ok_or_else(|| outside.clone());
+    let lines = canvas.lines(tile);
+    let unit = FlatUnit::new(&lines).ok_or(uneven)?;
+    let rods = lines
         .iter()
-        .map(|&e| {
-            let outward = direction(tiling, e, turn);
-            let inward = if tiling.edges[e].left == tile { -outward } else { outward };
-            (tiling.midpoint(e), inward)
+        .zip(&unit.middles)
+        .map(|(line, &middle)| Ok([on(line.at)?.position, on(middle)?.position]))
+        .collect::<Result<_, _>>()?;
+    Ok(Placed {
+        center: on(canvas.middle(tile))?,
+        counter_clockwise: unit.counter_clockwise,
+        rods,
+        contacts: unit.contacts.iter().map(|&p| on(p)).collect::<Result<_, _>>()?,
+    })
+}
+
+fn add_unit(weave: &mut Weave, tile: TileId, placed: &Placed, rods: Vec<RodId>) {
+    let unit = UnitId::new(weave.units.len());
+    let n = rods.len();
+    let contacts = (0..n)
+        .map(|i| {
+            let (first, second) = (rods[i], rods[(i + 1) % n]);
+            let (ending, passing) =
+                if placed.counter_clockwise { (second, first) } else { (first, second) };
+            weave.contacts.push(WovenContact { ending, passing, unit, on: placed.contacts[i] })
         })
         .collect();
-    let n = rods.len();
-    let mut contacts = Vec::with_capacity(n);
-    for i in 0..n {
-        let j = (i + 1) % n;
-        let ((p, u), (q, v)) = (lines[i], lines[j]);
-        let s = (q - p).perp(&v) / u.perp(&v);
-        let t = (q - p).perp(&u) / u.perp(&v);
-        // The rod that comes to the crossing later ends there.
-        let (ending, passing) = if s > t { (rods[i], rods[j]) } else { (rods[j], rods[i]) };
-        contacts.push(weave.contacts.push(WovenContact { ending, passing, unit, at: p + u * s }));
-    }
-    let chirality = if turn > 0.0 { Chirality::CounterClockwise } else { Chirality::Clockwise };
-    weave.units.push(WovenUnit { tile, center: *center, chirality, rods, contacts });
+    let chirality =
+        if placed.counter_clockwise { Chirality::CounterClockwise } else { Chirality::Clockwise };
+    weave.units.push(WovenUnit { tile, center: placed.center, chirality, rods, contacts });
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::frame::canvas::PlaneCanvas;
+    use crate::frame::canvas::fixture::Sheet;
     use crate::pattern::LIBRARY;
+    use crate::tiling::Placement;
+
+    fn woven(pattern: &crate::pattern::Pattern, turn: f64) -> Weave {
+        let placement = Placement { origin: [0.0; 2].into(), rotation: 0.0, edge: 1.0 };
+        let canvas = PlaneCanvas::new(&Sheet, pattern, placement, turn).expect("few tiles");
+        let tiles: Vec<TileId> = canvas.net().tiles.ids().collect();
+        weave(&canvas, &tiles).expect("a flat sheet")
+    }
 
     #[test]
     fn inner_rods_have_four_contacts_and_border_rods_two() {
         for pattern in LIBRARY {
-            let tiling = pattern.tiling().patch(Point2::new(-5.0, -5.0), Point2::new(5.0, 5.0));
-            let tiles: Vec<TileId> = tiling.tiles.ids().collect();
-            let weave = weave(&tiling, &tiles, pattern.turn.to_radians());
+            let weave = woven(pattern, pattern.turn.to_radians());
             let mut ending = vec![0; weave.rods.len()];
             let mut passing = vec![0; weave.rods.len()];
             for c in &weave.contacts {
@@ -161,22 +198,21 @@ mod tests {
         }
     }
 
-    /// The contacts of a unit form a regular polygon round its centre.
+    /// The contacts of a unit form a regular polygon round its centre, of inradius
+    /// r sin φ with r that of the tile.
     #[test]
-    fn units_are_regular() {
+    fn units_are_regular_and_run_as_the_turn_says() {
         for pattern in LIBRARY {
-            let tiling = pattern.tiling().patch(Point2::new(-4.0, -4.0), Point2::new(4.0, 4.0));
-            let tiles: Vec<TileId> = tiling.tiles.ids().collect();
             for turn in [pattern.turn.to_radians(), -pattern.turn.to_radians()] {
-                let weave = weave(&tiling, &tiles, turn);
+                let weave = woven(pattern, turn);
                 for unit in &weave.units {
-                    let n = unit.rods.len();
-                    let shape = UnitShape::new(n, turn);
-                    let radius = shape.hole.abs() / (std::f64::consts::PI / n as f64).cos();
+                    let half_step = std::f64::consts::PI / unit.rods.len() as f64;
+                    let hole = 0.5 / half_step.tan() * turn.sin().abs();
                     for &c in &unit.contacts {
-                        let found = (weave.contacts[c].at - unit.center).norm();
-                        assert!((found - radius).abs() < 1e-12, "{}: {found}", pattern.name);
+                        let middle = weave.contacts[c].on.position - unit.center.position;
+                        assert!((middle.norm() - hole / half_step.cos()).abs() < 1e-12);
                     }
+                    assert_eq!(unit.chirality == Chirality::CounterClockwise, turn > 0.0);
                 }
             }
         }

@@ -4,4 +4,4 @@ mod library;
 mod unit;
 
 pub use library::{LIBRARY, Pattern};
-pub use unit::UnitShape;
+pub use unit::{FlatUnit, Line};

@@ -83,6 +83,7 @@ fn contact(axes: &IdVec<RodId, Axis>, joint: &Joint) -> Contact {
 /// A real frame: 3 mm rods on a sample surface.
 pub(crate) fn on_sample(surface: &str, pattern: &str) -> Frame {
     use crate::chart::PlanarChart;
+    use crate::frame::canvas::PlaneCanvas;
     use crate::frame::fit::fit;
     use crate::frame::form::{FormSettings, form};
     use crate::surface::{samples::sample, topology::require_disk};
@@ -97,12 +98,12 @@ pub(crate) fn on_sample(surface: &str, pattern: &str) -> Frame {
     let edge = fit(&chart, pattern, &placement, turn, diameter).unwrap().edge;
     let settings = FormSettings {
         diameter,
-        turn,
         overhang: OVERHANG,
         round: 0.5,
         layering: Default::default(),
         surface_low,
     };
     let placement = crate::tiling::Placement { edge, ..placement };
-    form(&chart, pattern, &placement, &settings).unwrap().frame
+    let canvas = PlaneCanvas::new(&chart, pattern, placement, turn).unwrap();
+    form(&canvas, &settings).unwrap().frame
 }

@@ -2,51 +2,31 @@
 //! of N rods, an edge hosts a connection (paper, section 3.1).
 
 mod lattice;
+mod net;
 mod uniform;
 
 pub use lattice::{DIRECTIONS, Lattice};
+pub use net::{Net, Tile, TileEdge};
 pub use uniform::{UNIFORM, UniformTiling};
 
 use crate::ids::{IdVec, TileEdgeId, TileId};
 use nalgebra::{Point2, Rotation2, Vector2};
 
-/// A finite piece of a tiling, in edge lengths.
+/// A finite piece of a tiling of the plane, in edge lengths.
 #[derive(Clone, Debug, Default)]
 pub struct Tiling {
+    /// Which tile borders on which.
+    pub net: Net,
     /// Vertex positions.
     pub vertices: Vec<Point2<f64>>,
-    /// The polygons.
-    pub tiles: IdVec<TileId, Tile>,
-    /// The sides of the polygons, each once.
-    pub edges: IdVec<TileEdgeId, TileEdge>,
-}
-
-/// A polygon of a tiling.
-#[derive(Clone, Debug)]
-pub struct Tile {
-    /// Vertices, counter-clockwise.
-    pub corners: Vec<usize>,
-    /// Edges; edge i joins corners i and i + 1.
-    pub edges: Vec<TileEdgeId>,
-    /// The middle.
-    pub center: Point2<f64>,
-}
-
-/// A side of one or two polygons.
-#[derive(Clone, Debug)]
-pub struct TileEdge {
-    /// Vertices, in the order in which the left tile runs through them.
-    pub ends: [usize; 2],
-    /// The tile on the left.
-    pub left: TileId,
-    /// The tile on the right, if the piece holds it.
-    pub right: Option<TileId>,
+    /// The middles of the tiles.
+    pub centers: IdVec<TileId, Point2<f64>>,
 }
 
 impl Tiling {
     /// The middle of an edge.
     pub fn midpoint(&self, edge: TileEdgeId) -> Point2<f64> {
-        let [a, b] = self.edges[edge].ends.map(|v| self.vertices[v]);
+        let [a, b] = self.net.edges[edge].ends.map(|v| self.vertices[v]);
         nalgebra::center(&a, &b)
     }
 }

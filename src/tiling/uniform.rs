@@ -6,9 +6,8 @@
 //! *Tilings and Patterns*, section 2.1.
 
 use super::lattice::{DIRECTIONS, Lattice};
-use super::{Tile, TileEdge, Tiling};
-use crate::ids::{Id, IdVec, TileEdgeId, TileId};
-use nalgebra::Point2;
+use super::{Net, Tiling};
+use nalgebra::{Point2, Vector2};
 use std::collections::BTreeMap;
 
 /// Terms `(count, k)` of a sum of count · ζ^k; ζ = e^{iπ/12}.
@@ -84,15 +83,19 @@ impl UniformTiling {
     /// Tiles and edges are in a fixed order that does not depend on the machine.
     pub fn patch(&self, low: Point2<f64>, high: Point2<f64>) -> Tiling {
         let vertices = self.vertices(low, high);
-        let mut maker = PatchMaker { vertices: &vertices, tiling: Tiling::default() };
-        maker.tiling.vertices = vertices.values().map(|v| v.point).collect();
+        let mut maker = PatchMaker { vertices: &vertices, polygons: Vec::new() };
         for (&at, vertex) in &vertices {
             for k in directions(vertex.directions) {
                 maker.add_tile_left_of(at, k, low, high);
             }
         }
-        maker.tiling.edges = maker.edges();
-        maker.tiling
+        let points: Vec<Point2<f64>> = vertices.values().map(|v| v.point).collect();
+        let center = |corners: &Vec<usize>| {
+            let sum = corners.iter().fold(Vector2::zeros(), |c, &v| c + points[v].coords);
+            (sum / corners.len() as f64).into()
+        };
+        let centers = maker.polygons.iter().map(center).collect();
+        Tiling { net: Net::new(maker.polygons), vertices: points, centers }
     }
 
     /// Vertices in the box and its rim, each with the directions of its edges.
@@ -104,7 +107,7 @@ impl UniformTiling {
         let corners = [(low.x, low.y), (low.x, high.y), (high.x, low.y), (high.x, high.y)];
         let mut ranges = [(f64::MAX, f64::MIN); 2];
         for (x, y) in corners {
-            let p = nalgebra::Vector2::new(x, y);
+            let p = Vector2::new(x, y);
             for (range, c) in ranges.iter_mut().zip([p.perp(&e2) / det, e1.perp(&p) / det]) {
                 *range = (range.0.min(c), range.1.max(c));
             }
@@ -157,7 +160,8 @@ fn link(mut found: BTreeMap<Lattice, PatchVertex>) -> BTreeMap<Lattice, PatchVer
 
 struct PatchMaker<'a> {
     vertices: &'a BTreeMap<Lattice, PatchVertex>,
-    tiling: Tiling,
+    /// The tiles found, by their vertices.
+    polygons: Vec<Vec<usize>>,
 }
 
 impl PatchMaker<'_> {
@@ -192,37 +196,7 @@ impl PatchMaker<'_> {
                 break;
             }
         }
-        let center = corners
-            .iter()
-            .fold(nalgebra::Vector2::zeros(), |c, &v| c + self.tiling.vertices[v].coords)
-            / corners.len() as f64;
-        self.tiling.tiles.push(Tile { corners, edges: Vec::new(), center: center.into() });
-    }
-
-    /// Collects the edges of the tiles and tells each tile its own.
-    fn edges(&mut self) -> IdVec<TileEdgeId, TileEdge> {
-        let mut edges: IdVec<TileEdgeId, TileEdge> = IdVec::new();
-        let mut by_ends: BTreeMap<(usize, usize), TileEdgeId> = BTreeMap::new();
-        for (t, tile) in self.tiling.tiles.iter_mut().enumerate() {
-            let n = tile.corners.len();
-            for i in 0..n {
-                let (from, to) = (tile.corners[i], tile.corners[(i + 1) % n]);
-                let edge = match by_ends.get(&(to, from)) {
-                    Some(&known) => {
-                        edges[known].right = Some(TileId::new(t));
-                        known
-                    }
-                    None => {
-                        let new = TileEdge { ends: [from, to], left: TileId::new(t), right: None };
-                        let id = edges.push(new);
-                        by_ends.insert((from, to), id);
-                        id
-                    }
-                };
-                tile.edges.push(edge);
-            }
-        }
-        edges
+        self.polygons.push(corners);
     }
 }
 
@@ -234,12 +208,13 @@ mod tests {
     fn configuration(tiling: &Tiling, vertex: usize) -> Option<Vec<usize>> {
         let center = tiling.vertices[vertex];
         let mut around: Vec<(f64, usize)> = tiling
+            .net
             .tiles
-            .iter()
-            .filter(|t| t.corners.contains(&vertex))
-            .map(|t| {
-                let d = t.center - center;
-                (d.y.atan2(d.x), t.corners.len())
+            .enumerate()
+            .filter(|(_, tile)| tile.corners.contains(&vertex))
+            .map(|(t, tile)| {
+                let d = tiling.centers[t] - center;
+                (d.y.atan2(d.x), tile.corners.len())
             })
             .collect();
         let angle: f64 = around.iter().map(|&(_, n)| 180.0 - 360.0 / n as f64).sum();
@@ -275,12 +250,12 @@ mod tests {
         for kind in UNIFORM {
             let tiling = kind.patch(Point2::new(-12.0, -12.0), Point2::new(12.0, 12.0));
             let mut area = 0.0;
-            for tile in &tiling.tiles {
-                let n = tile.corners.len();
+            for (t, tile) in tiling.net.tiles.enumerate() {
+                let (n, center) = (tile.corners.len(), tiling.centers[t]);
                 let signed: f64 = (0..n)
                     .map(|i| {
-                        let p = tiling.vertices[tile.corners[i]] - tile.center;
-                        p.perp(&(tiling.vertices[tile.corners[(i + 1) % n]] - tile.center)) / 2.0
+                        let p = tiling.vertices[tile.corners[i]] - center;
+                        p.perp(&(tiling.vertices[tile.corners[(i + 1) % n]] - center)) / 2.0
                     })
                     .sum();
                 let regular = n as f64 / 4.0 / (std::f64::consts::PI / n as f64).tan();
@@ -296,10 +271,10 @@ mod tests {
     fn edges_know_both_their_tiles() {
         for kind in UNIFORM {
             let tiling = kind.patch(Point2::new(-5.0, -5.0), Point2::new(5.0, 5.0));
-            for (e, edge) in tiling.edges.enumerate() {
+            for (e, edge) in tiling.net.edges.enumerate() {
                 let sides = [Some(edge.left), edge.right];
                 for tile in sides.into_iter().flatten() {
-                    assert!(tiling.tiles[tile].edges.contains(&e));
+                    assert!(tiling.net.tiles[tile].edges.contains(&e));
                 }
             }
         }

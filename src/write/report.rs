@@ -4,7 +4,7 @@
 use crate::chart::Distortion;
 use crate::frame::Frame;
 use crate::frame::close::Closing;
-use crate::frame::fit::Fit;
+use crate::frame::fit::{Fit, FitBy};
 use crate::frame::measure::Measures;
 use crate::shop::cutlist::CutPlan;
 use crate::surface::Mesh;
@@ -55,8 +55,9 @@ pub struct Surface {
 #[derive(Clone, Debug, Serialize)]
 pub struct Fitted {
     pub edge: f64,
-    /// `given`, `rise` (where the median rise equals the diameter) or `plain` (20
-    /// diameters, on surfaces without enough curvature).
+    /// `given`; `rise` (the edge at which the median rise equals the diameter); `turn`
+    /// (the turn at which it does); `turn-limit` (the safe turn nearest to that); `plain`
+    /// (surfaces without enough curvature: 20 diameters, or the usual turn).
     pub by: &'static str,
     /// Median rise at this edge: the diameter that would suit best.
     pub median_rise: f64,
@@ -92,11 +93,13 @@ pub fn surface(mesh: &Mesh, notes: &[String], distortion: &Distortion) -> Surfac
 }
 
 /// The fit's part of the report.
-pub fn fit(fit: &Fit, given: bool) -> Fitted {
-    let by = match (given, fit.by_rise) {
-        (true, _) => "given",
-        (false, true) => "rise",
-        (false, false) => "plain",
+pub fn fit(fit: &Fit) -> Fitted {
+    let by = match fit.by {
+        FitBy::Given => "given",
+        FitBy::Edge => "rise",
+        FitBy::Turn => "turn",
+        FitBy::TurnLimit => "turn-limit",
+        FitBy::Plain => "plain",
     };
     Fitted { edge: fit.edge, by, median_rise: fit.rise }
 }
