@@ -11,6 +11,7 @@ pub mod crop;
 pub mod cut;
 pub mod fault;
 pub mod fit;
+pub mod fit_turn;
 pub mod form;
 pub mod layer;
 pub mod lift;

@@ -1,12 +1,18 @@
-//! Edge-to-edge tilings of the plane by regular polygons: an N-gon hosts a unit
-//! of N rods, an edge hosts a connection (paper, section 3.1).
+//! Tilings: an N-gon hosts a unit of N rods, an edge hosts a connection (paper, section
+//! 3.1). Edge-to-edge tilings of the plane by regular polygons, and polyhedra, which are
+//! tilings of the sphere.
 
+pub mod conway;
+mod geodesic;
 mod lattice;
+pub mod midsphere;
 mod net;
+mod polyhedron;
 mod uniform;
 
 pub use lattice::{DIRECTIONS, Lattice};
 pub use net::{Net, Tile, TileEdge};
+pub use polyhedron::{Polyhedron, Seed};
 pub use uniform::{UNIFORM, UniformTiling};
 
 use crate::ids::{IdVec, TileEdgeId, TileId};

@@ -5,15 +5,20 @@
 //! ([`PlaneCanvas`]), a polyhedron on a sphere ([`SphereCanvas`]), and the polygons of a
 //! mesh ([`MeshCanvas`]).
 
+mod facets;
 #[cfg(test)]
 pub mod fixture;
 mod plane;
+mod sphere;
 
+pub use facets::MeshCanvas;
 pub use plane::{MOST_UNITS, PlaneCanvas, TooManyUnits, most_units};
+pub use sphere::SphereCanvas;
 
 use crate::chart::SurfacePoint;
-use crate::ids::TileId;
+use crate::ids::{Id, IdVec, TileId};
 use crate::pattern::Line;
+use crate::surface::Vector3;
 use crate::tiling::Net;
 use nalgebra::Point2;
 
@@ -57,3 +62,21 @@ pub struct Sizing {
     /// What to try where rods and units do not suit each other, as a clause.
     pub fitting: &'static str,
 }
+
+/// Ranks of tiles with these middles, seen from above: rings of neighbours round the
+/// tiles nearest to `top`, in each ring by angle about it.
+fn ranks(net: &Net, middles: &[Vector3], top: &Vector3) -> IdVec<TileId, [f64; 2]> {
+    let far = |m: &Vector3| (m - top).norm();
+    let least = middles.iter().map(far).fold(f64::INFINITY, f64::min);
+    let size = middles.iter().map(far).fold(0.0, f64::max);
+    let nearest = |&i: &usize| far(&middles[i]) <= least + SAME * size;
+    let starts = (0..middles.len()).filter(nearest).map(TileId::new);
+    let rings = net.rings(starts);
+    // In whole steps, so that rounding does not decide.
+    let angle = |m: &Vector3| ((m.y - top.y).atan2(m.x - top.x) / SAME).round();
+    rings.iter().zip(middles).map(|(&ring, m)| [ring as f64, angle(m)]).collect()
+}
+
+/// Distances, as part of the size, and angles, radians, that count as the same when
+/// tiles are numbered; smaller, and rounding decides.
+const SAME: f64 = 1e-6;

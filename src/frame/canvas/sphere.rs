@@ -1,0 +1,259 @@
+//! A polyhedron on its sphere: rods follow great circles (paper, section 6, the Da Vinci
+//! dome).
+//!
+//! Seen from the middle of the sphere, great circles are straight lines in any plane. So
+//! a tile's flat picture is the plane that touches the sphere at the middle of the
+//! tile's inscribed circle, in sphere radii, and a unit is found there as in any plane.
+
+use super::{Canvas, Sizing};
+use crate::chart::SurfacePoint;
+use crate::ids::{IdVec, TileEdgeId, TileId};
+use crate::pattern::Line;
+use crate::surface::{Point3, Vector3};
+use crate::tiling::Net;
+use crate::tiling::midsphere::{Midscribed, nearest_to_origin};
+use nalgebra::{Point2, Unit, UnitQuaternion, Vector2};
+
+/// A sphere about the origin, tiled by a polyhedron whose edges touch it. Lengths in mm.
+#[derive(Clone, Debug)]
+pub struct SphereCanvas {
+    net: Net,
+    /// Unit vectors to the vertices.
+    corners: Vec<Vector3>,
+    /// Where the edges touch the sphere of radius one.
+    touching: IdVec<TileEdgeId, Touch>,
+    frames: IdVec<TileId, Frame>,
+    ranks: IdVec<TileId, [f64; 2]>,
+    radius: f64,
+    /// Tiles wholly above this height are kept; none for a whole sphere.
+    cut: Option<f64>,
+    turn: f64,
+    edge: f64,
+}
+
+/// Where an edge touches the sphere, and its direction as its left tile runs through it.
+#[derive(Clone, Copy, Debug)]
+struct Touch {
+    at: Vector3,
+    along: Vector3,
+}
+
+/// The flat picture of a tile: its axis and two directions across it.
+#[derive(Clone, Copy, Debug)]
+struct Frame {
+    axis: Vector3,
+    x: Vector3,
+    y: Vector3,
+}
+
+impl Frame {
+    fn new(axis: Vector3) -> Self {
+        let to_axis = UnitQuaternion::rotation_between(&Vector3::z(), &axis).unwrap_or_else(|| {
+            UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+        });
+        Self { axis, x: to_axis * Vector3::x(), y: to_axis * Vector3::y() }
+    }
+
+    /// A point of the sphere seen from its middle.
+    fn flat(&self, p: &Vector3) -> Point2<f64> {
+        Point2::new(p.dot(&self.x), p.dot(&self.y)) / p.dot(&self.axis)
+    }
+
+    /// A direction of travel at a point of the sphere, as it looks there.
+    fn flat_direction(&self, p: &Vector3, along: &Vector3) -> Vector2<f64> {
+        let slope = |across: &Vector3| {
+            along.dot(across) * p.dot(&self.axis) - p.dot(across) * along.dot(&self.axis)
+        };
+        Vector2::new(slope(&self.x), slope(&self.y))
+    }
+
+    fn back(&self, p: Point2<f64>) -> Vector3 {
+        (self.axis + self.x * p.x + self.y * p.y).normalize()
+    }
+}
+
+impl SphereCanvas {
+    /// Lays a polyhedron on a sphere of this radius. Tiles that reach below `cut` are
+    /// left out; rods are turned by `turn` radians, the whole by `rotate` radians about
+    /// the vertical.
+    pub fn new(form: &Midscribed, radius: f64, cut: Option<f64>, rotate: f64, turn: f64) -> Self {
+        let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), rotate);
+        let vertices: Vec<Vector3> = form.vertices.iter().map(|v| about * v).collect();
+        let corners: Vec<Vector3> = vertices.iter().map(|v| v.normalize()).collect();
+        let touch = |ends: [usize; 2]| {
+            let [a, b] = ends.map(|v| vertices[v]);
+            Touch { at: nearest_to_origin(&a, &b).normalize(), along: (b - a).normalize() }
+        };
+        let touching: IdVec<TileEdgeId, Touch> =
+            form.net.edges.iter().map(|e| touch(e.ends)).collect();
+        let axes: Vec<Vector3> = form.axes().map(|axis| about * axis).collect();
+        let arc = |ends: [usize; 2]| corners[ends[0]].angle(&corners[ends[1]]);
+        let edges = form.net.edges.iter().map(|e| arc(e.ends));
+        let edge = radius * edges.sum::<f64>() / form.net.edges.len() as f64;
+        Self {
+            ranks: super::ranks(&form.net, &axes, &Vector3::z()),
+            frames: axes.into_iter().map(Frame::new).collect(),
+            net: form.net.clone(),
+            corners,
+            touching,
+            radius,
+            cut,
+            turn,
+            edge,
+        }
+    }
+
+    /// The same with another turn of the rods.
+    pub fn turned(&self, turn: f64) -> Self {
+        Self { turn, ..self.clone() }
+    }
+
+    /// Height of the plane on which it stands: the cut, or the lowest point.
+    pub fn low(&self) -> f64 {
+        self.cut.unwrap_or(-self.radius)
+    }
+
+    /// Radius of the sphere, mm.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// The tiles' corners on the sphere, mm, and their polygons.
+    pub fn polygons(&self) -> (Vec<Point3>, Vec<Vec<usize>>) {
+        let points = self.corners.iter().map(|c| Point3::from(c * self.radius)).collect();
+        (points, self.net.tiles.iter().map(|t| t.corners.clone()).collect())
+    }
+}
+
+impl Canvas for SphereCanvas {
+    fn net(&self) -> &Net {
+        &self.net
+    }
+
+    fn holds(&self, tile: TileId) -> bool {
+        let Some(cut) = self.cut else { return true };
+        let above = |p: &Vector3| p.z * self.radius >= cut - SNUG * self.radius;
+        let tile = &self.net.tiles[tile];
+        tile.corners.iter().all(|&v| above(&self.corners[v]))
+            && tile.edges.iter().all(|&e| above(&self.touching[e].at))
+    }
+
+    fn rank(&self, tile: TileId) -> [f64; 2] {
+        self.ranks[tile]
+    }
+
+    fn middle(&self, _tile: TileId) -> Point2<f64> {
+        Point2::origin()
+    }
+
+    fn lines(&self, tile: TileId) -> Vec<Line> {
+        let frame = &self.frames[tile];
+        let line = |&e: &TileEdgeId| {
+            let Touch { at, along } = self.touching[e];
+            let along = if self.net.edges[e].left == tile { along } else { -along };
+            let up = Unit::new_unchecked(at);
+            let inward = UnitQuaternion::from_axis_angle(&up, self.turn) * at.cross(&along);
+            Line { at: frame.flat(&at), inward: frame.flat_direction(&at, &inward) }
+        };
+        self.net.tiles[tile].edges.iter().map(line).collect()
+    }
+
+    fn place(&self, tile: TileId, p: Point2<f64>) -> Option<SurfacePoint> {
+        let normal = self.frames[tile].back(p);
+        Some(SurfacePoint { position: (normal * self.radius).into(), normal })
+    }
+
+    fn edge(&self) -> f64 {
+        self.edge
+    }
+
+    fn sizing(&self) -> Sizing {
+        Sizing {
+            larger: "a lower frequency or a larger span (--span)",
+            smaller: "a higher frequency, or cut less away (--cut)",
+            fitting: "Leave out --turn to let it be fitted to the rods, or try another notation",
+        }
+    }
+}
+
+/// A tile that reaches below the cut by less than this part of the radius counts as
+/// above: the equator of a polyhedron is known to rounding.
+const SNUG: f64 = 1e-9;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ids::Id;
+    use crate::pattern::FlatUnit;
+    use crate::tiling::conway::Notation;
+    use crate::tiling::midsphere::midsphere;
+
+    fn canvas(notation: &str, cut: Option<f64>, turn: f64) -> SphereCanvas {
+        let notation: Notation = notation.parse().expect("a notation");
+        SphereCanvas::new(&midsphere(&notation.polyhedron()).expect("round"), 100.0, cut, 0.3, turn)
+    }
+
+    /// Rods keep one distance from the middle of their unit, whatever the tile: the
+    /// sine of it is sin r sin φ, with r the angle from the tile's axis to its edges.
+    #[test]
+    fn units_are_tangent_to_a_circle_about_their_axis() {
+        for notation in ["I", "aI/2", "dkI", "sC"] {
+            for turn in [-0.2f64, 0.35] {
+                let canvas = canvas(notation, None, turn);
+                for tile in canvas.net().tiles.ids() {
+                    let lines = canvas.lines(tile);
+                    let unit = FlatUnit::new(&lines).expect("a unit");
+                    assert_eq!(unit.counter_clockwise, turn > 0.0);
+                    for line in &lines {
+                        let away = line.at.coords.perp(&line.inward) / line.inward.norm();
+                        let reach = line.at.coords.norm().atan();
+                        // In the plane the distance is a tangent.
+                        let wanted = (reach.sin() * turn.sin()).abs().asin().tan();
+                        assert!((away.abs() - wanted).abs() < 1e-9, "{notation}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// The rod of an edge is one great circle, seen from either side.
+    #[test]
+    fn both_tiles_of_an_edge_see_one_rod() {
+        let canvas = canvas("aI", None, 0.3);
+        for (e, edge) in canvas.net().edges.enumerate() {
+            let plane = |tile: TileId| {
+                let side = canvas.net().tiles[tile].edges.iter().position(|&x| x == e)?;
+                let line = canvas.lines(tile)[side];
+                let [p, q] = [line.at, line.at + line.inward]
+                    .map(|p| canvas.place(tile, p).map(|p| p.normal));
+                Some(p?.cross(&q?).normalize())
+            };
+            let (left, right) = (plane(edge.left), edge.right.and_then(plane));
+            assert!((left.expect("left") + right.expect("right")).norm() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_cut_at_the_equator_keeps_the_upper_half() {
+        // Octahedron's ambo, the cuboctahedron, has no edge ring at the equator; the
+        // octahedron itself has.
+        assert_eq!(count("O", Some(0.0)), 4);
+        assert_eq!(count("O", None), 8);
+        assert!(count("O", Some(1.0)) == 0);
+        fn count(notation: &str, cut: Option<f64>) -> usize {
+            let canvas = canvas(notation, cut, 0.3);
+            canvas.net().tiles.ids().filter(|&t| canvas.holds(t)).count()
+        }
+    }
+
+    #[test]
+    fn numbering_starts_at_the_top() {
+        let canvas = canvas("dI/2", None, 0.3);
+        let first = canvas.net().tiles.ids().min_by(|&a, &b| {
+            let (p, q) = (canvas.rank(a), canvas.rank(b));
+            p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]))
+        });
+        let top = canvas.place(first.unwrap_or(TileId::new(0)), Point2::origin());
+        assert!((top.expect("on the sphere").normal - Vector3::z()).norm() < 1e-9);
+    }
+}
