@@ -111,19 +111,15 @@ fn empty_and_foreign_files_are_named() {
     for empty in ["", "\n", " \r\n\t "] {
         assert!(obj_error(empty).contains("the file is empty"));
     }
-    let stl = [&[0; 80][..], &[1, 0, 0, 0], &[0; 50]].concat();
-    let cases: [(&[u8], &str); 6] = [
-        (b"solid cube\nfacet normal 0 0 1\n", "STL"),
-        (&stl, "STL"),
-        (b"ply\nformat ascii 1.0\n", "PLY"),
-        (b"OFF\n4 2 0\n", "OFF"),
+    let cases: [(&[u8], &str); 3] = [
+        (b"Kaydara FBX Binary  \0", "FBX"),
         (b"PK\x03\x04rest", "ZIP"),
         (b"\x89PNG\r\n", "not known"),
     ];
     for (bytes, expected) in cases {
         let message = read_bytes("x", bytes, None).expect_err("foreign").to_string();
         assert!(message.contains(expected), "{message}");
-        assert!(message.contains("OBJ (.obj), glTF (.gltf) and GLB (.glb)"), "{message}");
+        assert!(message.contains("STL (.stl), PLY (.ply) and OFF (.off)"), "{message}");
     }
 }
 

@@ -5,14 +5,15 @@
 //! without area (a needle hands its middle vertex to the neighbour along its longest
 //! side, so that no slit stays open), repeated triangles and unused vertices; refuse
 //! edges with three triangles; turn triangles so that all face the same way (see
-//! `orient`). Numbers in messages are those of the mesh as it
-//! came in, counted from 1.
+//! `orient`). Numbers in messages are those of the mesh as it came in, counted from 1.
+//! Polygons have a mender of their own, in [`polygons`](crate::surface::polygons).
 
-use crate::ids::{FaceId, Id, IdVec, VertexId};
-use crate::surface::orient::{Unorientable, orient};
+use crate::ids::{FaceId, Id, VertexId};
+use crate::surface::faces::{FLAT, NEEDLE_ROUNDS, Notes, WELD, check, settle};
+use crate::surface::read::polygon::MOST_CORNERS;
 use crate::surface::shape::{counted, place};
-use crate::surface::topology::{PLACES, Side, sorted_sides};
-use crate::surface::weld::{Weld, weld};
+use crate::surface::topology::{Side, sorted_sides};
+use crate::surface::weld::weld;
 use crate::surface::{Mesh, Point3};
 use std::collections::HashSet;
 
@@ -34,12 +35,42 @@ pub struct EdgePlace {
     pub middle: Point3,
 }
 
+/// What the faces of a mesh are called in messages.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum FaceKind {
+    /// Of a triangle mesh.
+    Triangle,
+    /// Of a polygon mesh.
+    Polygon,
+}
+
+impl FaceKind {
+    /// The word for one.
+    pub(super) fn one(self) -> &'static str {
+        match self {
+            Self::Triangle => "triangle",
+            Self::Polygon => "face",
+        }
+    }
+
+    /// The word for several.
+    pub(super) fn many(self) -> &'static str {
+        match self {
+            Self::Triangle => "triangles",
+            Self::Polygon => "faces",
+        }
+    }
+}
+
 /// What cannot be mended.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum MendError {
-    /// No triangles at all.
-    #[error("the surface has no triangles")]
-    Empty,
+    /// No faces at all.
+    #[error("the surface has no {}", .kind.many())]
+    Empty {
+        /// What its faces are called.
+        kind: FaceKind,
+    },
     /// A coordinate is not a finite number.
     #[error("vertex {vertex} is at ({}, {}, {}), which is not a place", .at[0], .at[1], .at[2])]
     NotFinite {
@@ -56,28 +87,56 @@ pub enum MendError {
         /// Its coordinates.
         at: [f64; 3],
     },
-    /// A triangle names a vertex that does not exist.
-    #[error("triangle {face} uses vertex {vertex}, but the vertices end at {vertices}")]
+    /// A face names a vertex that does not exist.
+    #[error("{} {face} uses vertex {vertex}, but the vertices end at {vertices}", .kind.one())]
     VertexOutOfRange {
-        /// The triangle.
+        /// What the face is called.
+        kind: FaceKind,
+        /// The face.
         face: FaceId,
         /// The vertex that it names.
         vertex: VertexId,
         /// How many vertices there are.
         vertices: usize,
     },
-    /// All triangles are points or lines.
-    #[error("the surface has no area: all {triangles} triangles are points or lines")]
-    NoArea {
-        /// How many triangles there are.
-        triangles: usize,
+    /// The outline of a polygon crosses itself.
+    #[error("the outline of face {face} crosses itself")]
+    Crossed {
+        /// The face.
+        face: FaceId,
     },
-    /// Edges with three triangles or more.
+    /// A polygon passes through a vertex twice.
+    #[error("face {face} passes vertex {vertex} twice")]
+    MeetsItself {
+        /// The face.
+        face: FaceId,
+        /// The vertex, numbered as in the file.
+        vertex: VertexId,
+    },
+    /// A polygon of very many corners.
+    #[error("face {face} has {corners} corners, more than {MOST_CORNERS}")]
+    TooManyCorners {
+        /// The face.
+        face: FaceId,
+        /// How many corners it has.
+        corners: usize,
+    },
+    /// All faces are points or lines.
+    #[error("the surface has no area: all {faces} {} are points or lines", .kind.many())]
+    NoArea {
+        /// What the faces are called.
+        kind: FaceKind,
+        /// How many there are.
+        faces: usize,
+    },
+    /// Edges with three faces or more.
     #[error(
-        "{} more than two triangles, first {}",
-        counted(*.count, "edge carries", "edges carry"), edges(.first)
+        "{} more than two {}, first {}",
+        counted(*.count, "edge carries", "edges carry"), .kind.many(), edges(.first)
     )]
     NonManifold {
+        /// What the faces are called.
+        kind: FaceKind,
         /// How many such edges there are.
         count: usize,
         /// The first of them.
@@ -95,11 +154,14 @@ impl MendError {
     /// What to try.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::Empty => "export the surface as a mesh, with its faces",
+            Self::Empty { .. } => "export the surface as a mesh, with its faces",
             Self::NotFinite { .. } | Self::VertexOutOfRange { .. } => {
                 "the file is damaged or was written wrongly: export it again"
             }
             Self::TooFar { .. } => "move the surface to the origin and check its units",
+            Self::Crossed { .. } | Self::MeetsItself { .. } | Self::TooManyCorners { .. } => {
+                "cut the face into simple ones, or export with faces cut into triangles"
+            }
             Self::NoArea { .. } => "export the surface again; check that its scale is not zero",
             Self::NonManifold { .. } => {
                 "in the modelling program, select non-manifold edges and delete the inner walls \
@@ -117,108 +179,27 @@ fn edges(places: &[EdgePlace]) -> String {
     places.iter().map(text).collect::<Vec<_>>().join("; ")
 }
 
-/// The farthest coordinate taken, mm: a thousand kilometres. Products of four lengths
-/// stay far from overflow.
-const FARTHEST: f64 = 1e9;
-
-/// Vertices nearer than this share of the bounding box's diagonal are one vertex. Files
-/// with six digits differ by that much at seams; larger, and fine detail is lost.
-const WELD: f64 = 1e-6;
-
-/// A triangle lower than this share of the bounding box's diagonal has no area: it is
-/// as flat as the places of its corners are uncertain.
-const FLAT: f64 = WELD;
-
-/// Rounds of handing on needles' middle vertices. Each round mends all needles that do
-/// not lie side by side; rows of them are shorter than this.
-const NEEDLE_ROUNDS: usize = 32;
-
 /// Mends a mesh as read from a file.
 ///
 /// # Errors
 /// What no mend is certain for; see [`MendError::hint`].
-pub fn mend(mesh: Mesh) -> Result<Mended, MendError> {
-    check(&mesh)?;
-    let mut notes = Notes::default();
-    let vertices_read = mesh.points.len();
+pub fn mend(mut mesh: Mesh) -> Result<Mended, MendError> {
+    let kind = FaceKind::Triangle;
+    let diagonal = check(&mesh.points, &mesh.triangles, kind)?;
     let triangles_read = mesh.triangles.len();
-    let [lo, hi] = mesh.bounds().ok_or(MendError::Empty)?;
-    let diagonal = (hi - lo).norm();
+    let mut notes = Notes::default();
 
-    let Weld { mut mesh, joined, near } = weld(mesh, WELD * diagonal);
-    notes.say(
-        joined - near,
-        "vertex at the place of another joined to it",
-        "vertices at the place of another joined to it",
-    );
-    notes.say(near, "vertex next to another joined to it", "vertices next to another joined to it");
-    notes.say(
-        remove_needles(&mut mesh, FLAT * diagonal),
-        "triangle without area left out",
-        "triangles without area left out",
-    );
-    notes.say(
-        remove_repeats(&mut mesh),
-        "repeated triangle left out",
-        "repeated triangles left out",
-    );
+    let weld = weld(&mesh.points, WELD * diagonal);
+    weld.apply(&mut mesh.triangles);
+    notes.say_welded(&weld);
+    let flat = remove_needles(&mut mesh, FLAT * diagonal);
+    notes.say_faces(flat, kind, "", "without area left out");
+    notes.say_faces(remove_repeats(&mut mesh), kind, "repeated ", "left out");
     if mesh.triangles.is_empty() {
-        return Err(MendError::NoArea { triangles: triangles_read });
+        return Err(MendError::NoArea { kind, faces: triangles_read });
     }
-    let (mut mesh, origin) = drop_unused(mesh);
-    let unused = vertices_read - joined - mesh.points.len();
-    notes.say(unused, "unused vertex left out", "unused vertices left out");
-
-    let at = |[a, b]: [VertexId; 2], mesh: &Mesh| EdgePlace {
-        ends: [origin[a], origin[b]],
-        middle: nalgebra::center(&mesh.points[a], &mesh.points[b]),
-    };
-    let crowded = crowded_edges(&mesh);
-    if !crowded.is_empty() {
-        let first = crowded.iter().take(PLACES).map(|&e| at(e, &mesh)).collect();
-        return Err(MendError::NonManifold { count: crowded.len(), first });
-    }
-    let turned =
-        orient(&mut mesh).map_err(|Unorientable(e)| MendError::OneSided { at: at(e, &mesh) })?;
-    notes.say(
-        turned,
-        "triangle turned round so that the surface faces one way, up or outward",
-        "triangles turned round so that the surface faces one way, up or outward",
-    );
+    settle(&mut mesh.points, &mut mesh.triangles, kind, weld.joined, &mut notes)?;
     Ok(Mended { mesh, notes: notes.0 })
-}
-
-#[derive(Default)]
-struct Notes(Vec<String>);
-
-impl Notes {
-    fn say(&mut self, count: usize, one: &str, many: &str) {
-        if count > 0 {
-            self.0.push(counted(count, one, many));
-        }
-    }
-}
-
-fn check(mesh: &Mesh) -> Result<(), MendError> {
-    if mesh.triangles.is_empty() {
-        return Err(MendError::Empty);
-    }
-    for (vertex, p) in mesh.points.enumerate() {
-        let at = [p.x, p.y, p.z];
-        if !at.iter().all(|c| c.is_finite()) {
-            return Err(MendError::NotFinite { vertex, at });
-        }
-        if at.iter().any(|c| c.abs() > FARTHEST) {
-            return Err(MendError::TooFar { vertex, at });
-        }
-    }
-    let vertices = mesh.points.len();
-    for (face, t) in mesh.triangles.enumerate() {
-        if let Some(&vertex) = t.iter().find(|v| v.index() >= vertices) {
-            return Err(MendError::VertexOutOfRange { face, vertex, vertices });
-        }
-    }
-    Ok(())
 }
 
 /// Where a triangle without area lies: its longest side, if it has three corners.
@@ -313,28 +294,6 @@ fn remove_repeats(mesh: &mut Mesh) -> usize {
     };
     mesh.triangles = mesh.triangles.iter().filter(first).copied().collect();
     before - mesh.triangles.len()
-}
-
-/// Takes out vertices without triangles; also gives the old number of each new vertex.
-fn drop_unused(mesh: Mesh) -> (Mesh, IdVec<VertexId, VertexId>) {
-    let mut used = vec![false; mesh.points.len()];
-    for v in mesh.triangles.iter().flatten() {
-        used[v.index()] = true;
-    }
-    let origin: IdVec<VertexId, VertexId> = mesh.points.ids().filter(|v| used[v.index()]).collect();
-    let mut new: IdVec<VertexId, VertexId> = mesh.points.ids().collect();
-    for (now, &old) in origin.enumerate() {
-        new[old] = now;
-    }
-    let points = origin.iter().map(|&v| mesh.points[v]).collect();
-    let triangles = mesh.triangles.iter().map(|t| t.map(|v| new[v])).collect();
-    (Mesh { points, triangles }, origin)
-}
-
-fn crowded_edges(mesh: &Mesh) -> Vec<[VertexId; 2]> {
-    let sides = sorted_sides(&mesh.triangles);
-    let groups = sides.chunk_by(|a, b| a.edge == b.edge);
-    groups.filter(|g| g.len() > 2).map(|g| g[0].edge).collect()
 }
 
 #[cfg(test)]

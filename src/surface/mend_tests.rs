@@ -123,11 +123,12 @@ fn what_is_no_number_is_refused_with_its_vertex() {
 
 #[test]
 fn what_has_no_triangles_vertices_or_area_is_refused() {
-    assert_eq!(mend(Mesh::default()), Err(MendError::Empty));
+    assert_eq!(mend(Mesh::default()), Err(MendError::Empty { kind: FaceKind::Triangle }));
     let line = mesh(&[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]], &[[0, 1, 2]]);
-    assert_eq!(mend(line), Err(MendError::NoArea { triangles: 1 }));
+    let no_area = Err(MendError::NoArea { kind: FaceKind::Triangle, faces: 1 });
+    assert_eq!(mend(line), no_area);
     let point = mesh(&[[3.0; 3]; 3], &[[0, 1, 2]]);
-    assert_eq!(mend(point), Err(MendError::NoArea { triangles: 1 }));
+    assert_eq!(mend(point), no_area);
     let error = mend(mesh(&SQUARE, &[[0, 1, 2], [0, 2, 4]])).expect_err("no vertex 5");
     assert_eq!(error.to_string(), "triangle 2 uses vertex 5, but the vertices end at 4");
 }

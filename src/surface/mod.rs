@@ -2,9 +2,11 @@
 //! where points lie on it.
 
 pub mod bvh;
+mod faces;
 pub mod locate;
 pub mod mend;
 mod orient;
+pub mod polygons;
 pub mod read;
 pub mod samples;
 pub mod shape;
@@ -42,7 +44,6 @@ impl Mesh {
 
     /// Lower and upper corner of the bounding box; `None` for a mesh without points.
     pub fn bounds(&self) -> Option<[Point3; 2]> {
-        let first = *self.points.first()?;
-        Some(self.points.iter().fold([first, first], |[lo, hi], p| [lo.inf(p), hi.sup(p)]))
+        faces::bounds(&self.points)
     }
 }

@@ -7,29 +7,38 @@
 //! the order of vertices only, and chains of near vertices do not grow together.
 
 use crate::ids::{IdVec, VertexId};
-use crate::surface::{Mesh, Point3};
+use crate::surface::Point3;
 use std::collections::HashMap;
 
-/// A mesh after joining. Vertices keep their numbers; joined ones are left unused.
+/// What was joined. Vertices keep their numbers; joined ones are left unused.
 pub(super) struct Weld {
-    /// The mesh, with triangles on the kept vertices.
-    pub mesh: Mesh,
+    /// The vertex that each vertex goes to, itself if it is kept.
+    pub target: IdVec<VertexId, VertexId>,
     /// How many vertices were joined to another.
     pub joined: usize,
     /// How many of these were near the other, not exactly there.
     pub near: usize,
 }
 
+impl Weld {
+    /// Moves faces to the kept vertices.
+    pub fn apply<F: AsMut<[VertexId]>>(&self, faces: &mut [F]) {
+        for v in faces.iter_mut().flat_map(|f| f.as_mut()) {
+            *v = self.target[*v];
+        }
+    }
+}
+
 /// Joins vertices no farther apart than `tolerance`, mm. All points must be finite.
-pub(super) fn weld(mesh: Mesh, tolerance: f64) -> Weld {
+pub(super) fn weld(points: &IdVec<VertexId, Point3>, tolerance: f64) -> Weld {
     let mut grid = Grid::new(tolerance);
     let (mut joined, mut near) = (0, 0);
     let mut target: IdVec<VertexId, VertexId> = IdVec::new();
-    for (v, &p) in mesh.points.enumerate() {
-        match grid.nearest(&mesh.points, p) {
+    for (v, &p) in points.enumerate() {
+        match grid.nearest(points, p) {
             Some(kept) => {
                 joined += 1;
-                near += usize::from(mesh.points[kept] != p);
+                near += usize::from(points[kept] != p);
                 target.push(kept);
             }
             None => {
@@ -38,8 +47,7 @@ pub(super) fn weld(mesh: Mesh, tolerance: f64) -> Weld {
             }
         }
     }
-    let triangles = mesh.triangles.iter().map(|t| t.map(|v| target[v])).collect();
-    Weld { mesh: Mesh { points: mesh.points, triangles }, joined, near }
+    Weld { target, joined, near }
 }
 
 struct Grid {

@@ -1,17 +1,17 @@
 //! glTF 2.0, as .gltf with buffers beside or inside it, or as .glb.
 //!
 //! All triangle primitives (lists, strips, fans) of the default scene are placed by
-//! their nodes and joined to one mesh, turned from y up and metres to z up and
+//! their nodes and joined to one soup, turned from y up and metres to z up and
 //! millimetres. The `gltf` crate parses and validates the document; bytes are read
 //! here, because its accessors trust sizes in the file. Skins, morph targets and
-//! materials are not applied. Extensions that are required and change the shape are
+//! materials are not applied, and a note says so of the first two. Extensions that are required and change the shape are
 //! refused by name.
 
+use super::accessor::{self, Bytes};
+use super::soup::Soup;
 use super::uri::{self, UriError};
-use crate::ids::{Id, VertexId};
-use crate::surface::read::accessor;
+use crate::surface::Point3;
 use crate::surface::shape::counted;
-use crate::surface::{Mesh, Point3};
 use gltf::mesh::Mode;
 use gltf::{Document, Glb, Node, Semantic};
 use nalgebra::{Matrix4, Quaternion, Translation3, UnitQuaternion, Vector3};
@@ -103,8 +103,13 @@ impl GltfError {
 }
 
 /// Required extensions that leave positions as they are or are read here.
-const HARMLESS: [&str; 4] =
-    ["KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_mesh_quantization"];
+const HARMLESS: [&str; 5] = [
+    "KHR_materials_",
+    "KHR_texture_",
+    "EXT_texture_",
+    "KHR_mesh_quantization",
+    "KHR_lights_punctual",
+];
 
 /// Placed corners and vertices allowed beyond a few for each byte of the file: enough
 /// for any scene that repeats a small mesh, too little to fill the memory.
@@ -125,37 +130,42 @@ pub(super) fn read(
     bytes: &[u8],
     folder: Option<&Path>,
     notes: &mut Vec<String>,
-) -> Result<Mesh, GltfError> {
+) -> Result<Soup, GltfError> {
     let (json, blob) = unwrap_glb(bytes)?;
     let document = parse(json, notes)?;
     let buffers = Buffers::load(&document, blob, folder)?;
     let size = bytes.len() + buffers.beside();
     let mut scene = Scene {
         buffers,
-        points: Vec::new(),
-        triangles: Vec::new(),
+        soup: Soup::default(),
+        size,
+        skinned: 0,
+        morphed: 0,
         others: 0,
         limit: size.saturating_mul(PER_BYTE).saturating_add(FREE_COPIES),
     };
-    let mut skinned = 0;
     for (node, matrix) in placed_nodes(&document)? {
         if let Some(mesh) = node.mesh() {
             scene.add_mesh(&mesh, &matrix)?;
-            skinned += usize::from(node.skin().is_some());
+            scene.skinned += usize::from(node.skin().is_some());
+            let morphs = mesh.primitives().any(|p| p.morph_targets().len() > 0);
+            scene.morphed += usize::from(morphs);
         }
     }
-    if skinned > 0 {
-        let meshes = counted(skinned, "mesh", "meshes");
-        notes.push(format!("{meshes} read at rest: skins are not applied"));
+    for (count, what) in [(scene.skinned, "skins"), (scene.morphed, "morph targets")] {
+        if count > 0 {
+            let meshes = counted(count, "mesh", "meshes");
+            notes.push(format!("{meshes} read at rest: {what} are not applied"));
+        }
     }
     if scene.others > 0 {
         let sets = counted(scene.others, "set", "sets");
         notes.push(format!("{sets} of points or lines left out"));
     }
-    if scene.triangles.is_empty() {
+    if scene.soup.face_count() == 0 {
         return Err(GltfError::NoTriangles);
     }
-    Ok(Mesh { points: scene.points.into(), triangles: scene.triangles.into() })
+    Ok(scene.soup)
 }
 
 /// The document and the binary chunk of a .glb file; all bytes of a .gltf file.
@@ -333,8 +343,12 @@ fn local(node: &Node) -> Matrix4<f64> {
 
 struct Scene {
     buffers: Buffers,
-    points: Vec<Point3>,
-    triangles: Vec<[VertexId; 3]>,
+    soup: Soup,
+    /// Bytes of the document and of all files beside it.
+    size: usize,
+    /// Meshes with skins, and with morph targets.
+    skinned: usize,
+    morphed: usize,
     /// Primitives of points and lines met.
     others: usize,
     limit: usize,
@@ -354,10 +368,10 @@ impl Scene {
                 continue;
             }
             let Some(positions) = primitive.get(&Semantic::Positions) else { continue };
-            let data = |buffer: usize| self.buffers.get(buffer);
-            let positions = accessor::positions(&positions, data)?;
+            let bytes = Bytes { buffer: &|buffer| self.buffers.get(buffer), size: self.size };
+            let positions = accessor::positions(&positions, &bytes)?;
             let indices = match primitive.indices() {
-                Some(indices) => accessor::indices(&indices, data)?,
+                Some(indices) => accessor::indices(&indices, &bytes)?,
                 None => (0..positions.len() as u32).collect(),
             };
             if let Some(&i) = indices.iter().find(|&&i| i as usize >= positions.len()) {
@@ -366,18 +380,18 @@ impl Scene {
             }
             let corners = if primitive.mode() == Mode::Triangles { 1 } else { 3 };
             let more = positions.len() + corners * indices.len();
-            if self.points.len() + 3 * self.triangles.len() + more > self.limit {
+            let base = self.soup.points.len();
+            if base + self.soup.corner_count() + more > self.limit {
                 return Err(GltfError::TooManyCopies { limit: self.limit });
             }
-            let base = self.points.len();
-            self.points.extend(positions.iter().map(|&p| transform(matrix, p)));
-            let triangles = assemble(primitive.mode(), &indices).map(|mut t| {
+            self.soup.points.extend(positions.iter().map(|&p| transform(matrix, p)));
+            for mut t in assemble(primitive.mode(), &indices) {
                 if mirrored {
                     t.swap(1, 2);
                 }
-                t.map(|i| VertexId::new(base + i as usize))
-            });
-            self.triangles.extend(triangles);
+                // The limit keeps vertices below 2^32.
+                self.soup.push(t.map(|i| base as u32 + i), None);
+            }
         }
         Ok(())
     }

@@ -1,23 +1,36 @@
 //! Reads surfaces from files.
 //!
-//! The format follows from the content, not the name. Every reader gives vertices and
-//! triangles as the file has them; [`mend`](crate::surface::mend) then makes a sound
-//! mesh of them or says why not. No reader trusts a size that it finds in a file, and
-//! memory stays within a small multiple of the file's size.
+//! The format follows from the content, not the name. Every reader fills a `soup` of
+//! points and faces as the file has them. The soup is cut into triangles, or kept in
+//! polygons, and mended ([`mend`](crate::surface::mend),
+//! [`polygons`](crate::surface::polygons)), or the answer says why not. No reader trusts
+//! a size that it finds in a file, and memory stays within a small multiple of the
+//! file's size.
 
 mod accessor;
+mod format;
 pub mod gltf;
 pub mod obj;
-mod polygon;
+pub mod off;
+pub mod ply;
+mod ply_body;
+pub(super) mod polygon;
+pub mod soup;
+pub mod stl;
+pub mod text;
 pub mod uri;
 
 use crate::surface::Mesh;
-use crate::surface::mend::{MendError, Mended, mend};
+use crate::surface::mend::MendError;
+use crate::surface::polygons::PolygonMesh;
+use format::Format;
+use soup::Soup;
 use std::path::Path;
 use std::{fs, io};
 
 /// Formats that can be read, for messages.
-pub const READABLE: &str = "OBJ (.obj), glTF (.gltf) and GLB (.glb)";
+pub const READABLE: &str =
+    "OBJ (.obj), glTF (.gltf), GLB (.glb), STL (.stl), PLY (.ply) and OFF (.off)";
 
 /// A surface as read, and what was done to it.
 #[derive(Clone, PartialEq, Debug)]
@@ -29,6 +42,17 @@ pub struct Reading {
     /// The format is in metres with y up by its specification (glTF), and the mesh was
     /// turned and scaled accordingly. Otherwise figures are as in the file, taken for
     /// mm and z up.
+    pub y_up_metres: bool,
+}
+
+/// A surface as read, in the polygons of the file, and what was done to it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct PolygonReading {
+    /// The sound mesh, mm, z up.
+    pub mesh: PolygonMesh,
+    /// One sentence for each kind of mend, for those who ask.
+    pub notes: Vec<String>,
+    /// As in [`Reading`].
     pub y_up_metres: bool,
 }
 
@@ -67,6 +91,18 @@ pub enum Cause {
     /// A fault of a glTF file.
     #[error(transparent)]
     Gltf(#[from] gltf::GltfError),
+    /// A fault of an STL file.
+    #[error(transparent)]
+    Stl(#[from] stl::StlError),
+    /// A fault of a PLY file.
+    #[error(transparent)]
+    Ply(#[from] ply::PlyError),
+    /// A fault of an OFF file.
+    #[error(transparent)]
+    Off(#[from] off::OffError),
+    /// A fault of the faces, whatever the format.
+    #[error(transparent)]
+    Face(#[from] soup::FaceError),
     /// The file was read, but is no surface.
     #[error(transparent)]
     Mesh(#[from] MendError),
@@ -81,6 +117,10 @@ impl ReadError {
             Cause::Format { .. } => "export the surface in one of these formats",
             Cause::Obj(e) => e.hint(),
             Cause::Gltf(e) => e.hint(),
+            Cause::Stl(e) => e.hint(),
+            Cause::Ply(e) => e.hint(),
+            Cause::Off(e) => e.hint(),
+            Cause::Face(e) => e.hint(),
             Cause::Mesh(e) => e.hint(),
         }
     }
@@ -101,6 +141,16 @@ pub fn read(path: &Path) -> Result<Reading, ReadError> {
     read_bytes(&file(), &bytes, path.parent())
 }
 
+/// Reads a surface from a file, in the polygons of the file.
+///
+/// # Errors
+/// As [`read`]; also a face whose outline meets itself.
+pub fn read_polygons(path: &Path) -> Result<PolygonReading, ReadError> {
+    let file = || path.display().to_string();
+    let bytes = load(path).map_err(|cause| ReadError { file: file(), cause })?;
+    read_polygons_bytes(&file(), &bytes, path.parent())
+}
+
 fn load(path: &Path) -> Result<Vec<u8>, Cause> {
     if !fs::metadata(path)?.is_file() {
         return Err(Cause::NotAFile);
@@ -114,61 +164,44 @@ fn load(path: &Path) -> Result<Vec<u8>, Cause> {
 /// # Errors
 /// As [`read`].
 pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Reading, ReadError> {
-    reading(bytes, folder).map_err(|cause| ReadError { file: name.into(), cause })
-}
-
-fn reading(bytes: &[u8], folder: Option<&Path>) -> Result<Reading, Cause> {
-    // Some programs begin text with a byte order mark.
-    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     let mut notes = Vec::new();
-    let (mesh, y_up_metres) = match Format::of(bytes)? {
-        Format::Obj => (obj::read(bytes, &mut notes)?, false),
-        Format::Gltf => (gltf::read(bytes, folder, &mut notes)?, true),
-    };
-    let Mended { mesh, notes: mends } = mend(mesh)?;
-    notes.extend(mends);
+    let mesh = soup(bytes, folder, &mut notes)
+        .and_then(|(soup, y_up_metres)| Ok((soup.into_triangles(&mut notes)?, y_up_metres)));
+    let (mesh, y_up_metres) = mesh.map_err(|cause| ReadError { file: name.into(), cause })?;
     Ok(Reading { mesh, notes, y_up_metres })
 }
 
-enum Format {
-    Obj,
-    Gltf,
+/// Reads a surface from the content of a file, in the polygons of the file; `name` and
+/// `folder` as in [`read_bytes`].
+///
+/// # Errors
+/// As [`read_polygons`].
+pub fn read_polygons_bytes(
+    name: &str,
+    bytes: &[u8],
+    folder: Option<&Path>,
+) -> Result<PolygonReading, ReadError> {
+    let mut notes = Vec::new();
+    let mesh = soup(bytes, folder, &mut notes)
+        .and_then(|(soup, y_up_metres)| Ok((soup.into_polygons(&mut notes)?, y_up_metres)));
+    let (mesh, y_up_metres) = mesh.map_err(|cause| ReadError { file: name.into(), cause })?;
+    Ok(PolygonReading { mesh, notes, y_up_metres })
 }
 
-impl Format {
-    fn of(bytes: &[u8]) -> Result<Self, Cause> {
-        let text = bytes.trim_ascii();
-        if text.is_empty() {
-            return Err(Cause::Empty);
-        }
-        if bytes.starts_with(b"glTF") || text.starts_with(b"{") {
-            return Ok(Self::Gltf);
-        }
-        let is_vertex =
-            |line: &[u8]| matches!(line.trim_ascii_start(), [b'v' | b'f', b' ' | b'\t', ..]);
-        let looks_like = guess(bytes);
-        if looks_like.is_none() && bytes.split(|b| *b == b'\n').any(is_vertex) {
-            return Ok(Self::Obj);
-        }
-        Err(Cause::Format { looks_like })
-    }
-}
-
-/// Formats that are met often, by their first bytes.
-fn guess(bytes: &[u8]) -> Option<&'static str> {
-    let starts = |start: &str| bytes.starts_with(start.as_bytes());
-    // Binary STL: 80 bytes of anything, the number of triangles, 50 bytes for each.
-    let count = bytes.get(80..84).and_then(|b| b.try_into().ok()).map(u32::from_le_bytes);
-    let is_stl = count.is_some_and(|n| bytes.len() as u64 == 84 + 50 * u64::from(n));
-    match () {
-        () if starts("ply\n") || starts("ply\r") => Some("a PLY file"),
-        () if starts("OFF\n") || starts("OFF\r") || starts("OFF ") => Some("an OFF file"),
-        () if is_stl || starts("solid ") || starts("solid\n") => Some("an STL file"),
-        () if starts("PK\x03\x04") => Some("a 3MF or ZIP archive"),
-        () if starts("Kaydara FBX") => Some("an FBX file"),
-        () if starts("ISO-10303-21") => Some("a STEP file"),
-        () if starts("BLENDER") => Some("a Blender file"),
-        () if starts("3D Geometry File Format") => Some("a Rhino file"),
-        () => None,
-    }
+/// Points and faces as the file has them, and whether they came in metres with y up.
+fn soup(
+    bytes: &[u8],
+    folder: Option<&Path>,
+    notes: &mut Vec<String>,
+) -> Result<(Soup, bool), Cause> {
+    // Some programs begin text with a byte order mark.
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    Ok(match Format::of(bytes)? {
+        Format::Obj => (obj::read(bytes)?, false),
+        Format::Gltf => (gltf::read(bytes, folder, notes)?, true),
+        Format::BinaryStl => (stl::read_binary(bytes)?, false),
+        Format::TextStl => (stl::read_text(bytes)?, false),
+        Format::Ply => (ply::read(bytes)?, false),
+        Format::Off => (off::read(bytes)?, false),
+    })
 }

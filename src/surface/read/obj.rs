@@ -6,13 +6,11 @@
 //! polylines (it takes `l` for faces), texture indices out of range (its arithmetic
 //! overflows), and groups (it starts numbering anew in each). A point element after
 //! each vertex makes it keep all vertices in the order of the file, so that numbers in
-//! messages are those of the file. Faces with more than three corners are cut into
-//! triangles here, because a fan is wrong for concave ones. Materials are not read.
+//! messages are those of the file. Materials are not read.
 
-use super::polygon::{MOST_CORNERS, Uncut, triangulate};
-use crate::ids::{Id, VertexId};
-use crate::surface::shape::counted;
-use crate::surface::{Mesh, Point3};
+use super::soup::{FaceError, FaceName, LastVertex, Soup};
+use super::text::LineError;
+use crate::surface::Point3;
 use std::cell::Cell;
 use std::fmt::Write as _;
 use std::io::{BufRead, Read};
@@ -21,65 +19,25 @@ use std::io::{BufRead, Read};
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum ObjError {
     /// A line that cannot be read.
-    #[error("line {line}: {problem}: {text:?}")]
-    Line {
-        /// Its number, counted from 1.
-        line: usize,
-        /// What is wrong with it.
-        problem: &'static str,
-        /// The line, shortened.
-        text: String,
-    },
-    /// A face names a vertex that the file does not have.
-    #[error("line {line}: the face uses vertex {vertex}, but the vertices end at {vertices}")]
-    VertexOutOfRange {
-        /// The line of the face.
-        line: usize,
-        /// The vertex as written.
-        vertex: String,
-        /// How many vertices there are.
-        vertices: usize,
-    },
-    /// A polygon whose outline crosses itself.
-    #[error("line {line}: the outline of the face crosses itself")]
-    Crossed {
-        /// The line of the face.
-        line: usize,
-    },
-    /// A polygon of very many corners.
-    #[error("line {line}: the face has {corners} corners, more than {MOST_CORNERS}")]
-    TooManyCorners {
-        /// The line of the face.
-        line: usize,
-        /// How many corners it has.
-        corners: usize,
-    },
-    /// Vertices only.
-    #[error("the file has {} but no faces", counted(*.vertices, "vertex", "vertices"))]
-    NoFaces {
-        /// How many vertices there are.
-        vertices: usize,
-    },
+    #[error(transparent)]
+    Line(#[from] LineError),
+    /// A face that does not fit the vertices.
+    #[error(transparent)]
+    Face(#[from] FaceError),
 }
 
 impl ObjError {
     /// What to try.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::Line { .. } => "correct the line, or export the surface again",
-            Self::VertexOutOfRange { .. } => {
-                "the file is damaged or cut short: export the surface again"
-            }
-            Self::Crossed { .. } | Self::TooManyCorners { .. } => {
-                "export with faces cut into triangles"
-            }
-            Self::NoFaces { .. } => "export the surface as a mesh, with its faces",
+            Self::Line(_) => "correct the line, or export the surface again",
+            Self::Face(e) => e.hint(),
         }
     }
 }
 
-/// Vertices and triangles of all objects and groups, in the order of the file.
-pub(super) fn read(bytes: &[u8], notes: &mut Vec<String>) -> Result<Mesh, ObjError> {
+/// Vertices and faces of all objects and groups, in the order of the file.
+pub(super) fn read(bytes: &[u8]) -> Result<Soup, ObjError> {
     let thin = Thin::new(bytes);
     let taken = Cell::new(0);
     let mut reader = Counted { rest: thin.text.as_bytes(), taken: &taken };
@@ -91,7 +49,7 @@ pub(super) fn read(bytes: &[u8], notes: &mut Vec<String>) -> Result<Mesh, ObjErr
         Err(e) => return Err(thin.line_error(taken.get(), e)),
     };
     let mesh = models.into_iter().next().map(|m| m.mesh).unwrap_or_default();
-    build(&mesh, &thin, notes)
+    Ok(build(&mesh, &thin))
 }
 
 /// The lines of a file that matter here.
@@ -158,7 +116,7 @@ impl Thin {
             _ => "cannot be read",
         };
         let text = self.text.lines().nth(at).unwrap_or_default().chars().take(60).collect();
-        ObjError::Line { line: self.number(at), problem, text }
+        LineError { line: self.number(at), problem: problem.into(), text }.into()
     }
 
     /// The first face that uses a vertex that is not there.
@@ -170,12 +128,13 @@ impl Thin {
             for (word, index) in words.filter_map(|w| Some((w, w.parse::<i64>().ok()?))) {
                 let index = if index < 0 { seen.saturating_add(index) + 1 } else { index };
                 if !(1..=self.vertices as i64).contains(&index) {
-                    let (line, vertex) = (self.number(at), word.to_owned());
-                    return ObjError::VertexOutOfRange { line, vertex, vertices: self.vertices };
+                    let (face, vertex) = (FaceName::Line(self.number(at)), word.to_owned());
+                    let end = LastVertex { vertices: self.vertices, from: 1 };
+                    return FaceError::VertexOutOfRange { face, vertex, end }.into();
                 }
             }
         }
-        ObjError::NoFaces { vertices: self.vertices }
+        FaceError::NoFaces { vertices: self.vertices }.into()
     }
 
     fn number(&self, at: usize) -> usize {
@@ -209,53 +168,20 @@ impl BufRead for Counted<'_> {
     }
 }
 
-fn build(loaded: &tobj::Mesh, thin: &Thin, notes: &mut Vec<String>) -> Result<Mesh, ObjError> {
-    let points: Vec<Point3> =
-        loaded.positions.chunks_exact(3).map(|c| Point3::new(c[0], c[1], c[2])).collect();
+fn build(loaded: &tobj::Mesh, thin: &Thin) -> Soup {
+    let mut soup = Soup::default();
+    soup.count_from = 1;
+    let points = loaded.positions.chunks_exact(3);
+    soup.points = points.map(|c| Point3::new(c[0], c[1], c[2])).collect();
     // Without arities all faces are triangles; then there are no point elements either.
     let mut faces = loaded.indices.as_slice();
     let lines = thin.text.lines().zip(&thin.numbers).filter(|(l, _)| l.starts_with('f'));
-    let (mut triangles, mut cut, mut short): (Vec<[VertexId; 3]>, _, _) = (Vec::new(), 0, 0);
     for (&arity, (_, &line)) in loaded.face_arities.iter().zip(lines) {
         let Some((face, rest)) = faces.split_at_checked(arity as usize) else { break };
         faces = rest;
-        if face.len() == 1 {
-            continue;
+        if face.len() > 1 {
+            soup.push(face.iter().copied(), Some(line));
         }
-        let corners = distinct(face);
-        if corners.len() < 3 {
-            short += 1;
-            continue;
-        }
-        let at: Vec<Point3> = corners.iter().map(|&i| points[i as usize]).collect();
-        let parts = triangulate(&at).map_err(|e| match e {
-            Uncut::Crossed => ObjError::Crossed { line },
-            Uncut::TooMany => ObjError::TooManyCorners { line, corners: corners.len() },
-        })?;
-        cut += usize::from(parts.len() > 1);
-        let vertex = |k: usize| VertexId::new(corners[k] as usize);
-        triangles.extend(parts.iter().map(|t| t.map(vertex)));
     }
-    if triangles.is_empty() {
-        return Err(ObjError::NoFaces { vertices: points.len() });
-    }
-    if cut > 0 {
-        let faces = counted(cut, "face", "faces");
-        notes.push(format!("{faces} with more than three corners cut into triangles"));
-    }
-    if short > 0 {
-        let faces = counted(short, "face", "faces");
-        notes.push(format!("{faces} with fewer than three corners left out"));
-    }
-    Ok(Mesh { points: points.into(), triangles: triangles.into() })
-}
-
-/// Corners without those that repeat the one before, round the end too.
-fn distinct(face: &[u32]) -> Vec<u32> {
-    let mut corners = face.to_vec();
-    corners.dedup();
-    while corners.len() > 1 && corners.first() == corners.last() {
-        corners.pop();
-    }
-    corners
+    soup
 }

@@ -5,12 +5,13 @@
 //! without area, which would leave slits beside the neighbours. A quadrilateral is the
 //! same thing: of its two diagonals the better is taken.
 
+use crate::ids::VertexId;
 use crate::surface::{Point3, Vector3};
 use nalgebra::{Point2, Vector2};
 
 /// Why a polygon was not cut.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Uncut {
+pub(in crate::surface) enum Uncut {
     /// Its outline crosses or touches itself.
     Crossed,
     /// More corners than [`MOST_CORNERS`].
@@ -19,11 +20,11 @@ pub(super) enum Uncut {
 
 /// Most corners of a polygon. Clipping may take the cube of their number; a face with
 /// more is an outline rather than a part of a surface.
-pub(super) const MOST_CORNERS: usize = 500;
+pub(in crate::surface) const MOST_CORNERS: usize = 500;
 
 /// Triangles of a polygon as positions in `corners`, none of them new. A polygon
 /// without area gives triangles without area.
-pub(super) fn triangulate(corners: &[Point3]) -> Result<Vec<[usize; 3]>, Uncut> {
+pub(in crate::surface) fn triangulate(corners: &[Point3]) -> Result<Vec<[usize; 3]>, Uncut> {
     match corners.len() {
         0..3 => return Ok(Vec::new()),
         3 => return Ok(vec![[0, 1, 2]]),
@@ -66,6 +67,37 @@ pub(super) fn triangulate(corners: &[Point3]) -> Result<Vec<[usize; 3]>, Uncut> 
     }
     triangles.push([ring[0], ring[1], ring[2]]);
     Ok(triangles)
+}
+
+/// Takes out corners that repeat the one before, and spikes that go to a corner and
+/// straight back, round the end too. Fewer than three corners may be left.
+pub(in crate::surface) fn tidy(face: &mut Vec<VertexId>) {
+    // What stays, `face[..kept]`, never ends in a repeat or a spike.
+    let mut kept = 0;
+    for i in 0..face.len() {
+        let corner = face[i];
+        match kept {
+            1.. if face[kept - 1] == corner => {}
+            2.. if face[kept - 2] == corner => kept -= 1,
+            _ => {
+                face[kept] = corner;
+                kept += 1;
+            }
+        }
+    }
+    let mut start = 0;
+    while kept - start > 1 {
+        let (first, last) = (face[start], face[kept - 1]);
+        if first == last || (kept - start > 2 && face[kept - 2] == first) {
+            kept -= 1;
+        } else if kept - start > 2 && face[start + 1] == last {
+            start += 1;
+        } else {
+            break;
+        }
+    }
+    face.truncate(kept);
+    face.drain(..start);
 }
 
 /// The polygon in its own plane, counter-clockwise; `None` if it has no area.
@@ -126,6 +158,7 @@ fn ear(flat: &[Point2<f64>], ring: &[usize], i: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ids::Id;
     use proptest::prelude::*;
     use std::f64::consts::TAU;
 
@@ -140,6 +173,29 @@ mod tests {
             0.5 * (b - a).perp(&(c - a))
         };
         triangles.iter().map(area).collect()
+    }
+
+    #[test]
+    fn repeats_and_spikes_go_round_the_end_too() {
+        let cases: [(&[usize], &[usize]); 9] = [
+            (&[0, 1, 2], &[0, 1, 2]),
+            (&[0, 1, 1, 2, 2, 0], &[0, 1, 2]),
+            (&[0, 1, 9, 1, 2], &[0, 1, 2]),
+            (&[9, 0, 1, 2, 0], &[0, 1, 2]),
+            (&[0, 1, 2, 0, 9], &[0, 1, 2]),
+            (&[1, 2, 3, 0, 3], &[1, 2, 3]),
+            (&[0, 1, 2, 1], &[0, 1]),
+            (&[5, 5, 5], &[5]),
+            (&[0, 1, 2, 3, 2, 1], &[0, 1]),
+        ];
+        for (corners, expected) in cases {
+            let mut face: Vec<_> = corners.iter().map(|&i| VertexId::new(i)).collect();
+            tidy(&mut face);
+            let first = (0..face.len()).min_by_key(|&k| face[k]).unwrap_or(0);
+            face.rotate_left(first);
+            let left: Vec<_> = face.iter().map(|v| v.index()).collect();
+            assert_eq!(left, expected, "{corners:?}");
+        }
     }
 
     #[test]
