@@ -1,12 +1,16 @@
 //! The guiding surface: a triangle mesh, how it is read, what shape it has, and
 //! where points lie on it.
 
+pub mod bow_ties;
 pub mod bvh;
+pub mod component;
+pub mod cut;
 mod faces;
 pub mod locate;
 pub mod mend;
 mod orient;
 pub mod polygons;
+pub mod prepare;
 pub mod read;
 pub mod samples;
 pub mod shape;

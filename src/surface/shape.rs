@@ -1,5 +1,5 @@
 //! What a surface is like as a whole: its pieces, their borders, handles and sizes.
-//! Printed as a small table when a surface cannot be used as it is.
+//! Printed as a small table by `inspect`, and where a surface cannot be used as it is.
 
 use crate::ids::{FaceId, IdVec};
 use crate::surface::topology::{HalfedgeId, Topology};
@@ -22,6 +22,8 @@ pub struct Border {
 pub struct Piece {
     /// Its triangles.
     pub triangles: usize,
+    /// Its area, mm².
+    pub area: f64,
     /// Its borders, the longest first.
     pub borders: Vec<Border>,
     /// Handles: 0 for a sphere or disk, 1 for a torus.
@@ -34,6 +36,11 @@ impl Piece {
     /// One border and no handle.
     pub fn is_disk(&self) -> bool {
         self.borders.len() == 1 && self.genus == 0
+    }
+
+    /// A border and no handle: a disk once its holes are filled.
+    pub fn is_chartable(&self) -> bool {
+        !self.borders.is_empty() && self.genus == 0
     }
 
     /// The borders other than the longest one.
@@ -92,30 +99,49 @@ impl Shape {
         matches!(&self.pieces[..], [piece] if piece.is_disk())
     }
 
-    /// What would make a disk of it.
+    /// One piece with a border and no handle: a disk once its holes are filled.
+    pub fn is_chartable(&self) -> bool {
+        matches!(&self.pieces[..], [piece] if piece.is_chartable())
+    }
+
+    /// The piece of the largest area, the first of equal ones; counted from 0.
+    pub fn largest(&self) -> Option<usize> {
+        let area = |&i: &usize| self.pieces[i].area;
+        // `max_by` takes the last of equal ones.
+        (0..self.pieces.len()).rev().max_by(|i, j| area(i).total_cmp(&area(j)))
+    }
+
+    /// What would make one piece with a border and no handle of it. Empty if it is one.
+    ///
+    /// Where there are several pieces, what is said of borders and handles is about the
+    /// largest, which `--component largest` keeps.
     pub fn hint(&self) -> String {
-        let Some(piece) = self.pieces.first() else {
+        let Some(largest) = self.largest() else {
             return "the surface has no triangles: export it again".into();
         };
+        let piece = &self.pieces[largest];
         let mut advice = Vec::new();
         if self.pieces.len() > 1 {
-            advice.push("keep one piece and delete or separate the others");
+            advice.push(format!(
+                "keep one piece with --component largest (piece {}), or --component N with its \
+                 number in the table",
+                largest + 1
+            ));
         }
-        if self.pieces.iter().any(|p| p.borders.is_empty()) {
-            advice
-                .push("cut the closed surface open, for example by deleting what is below ground");
+        if piece.borders.is_empty() && piece.genus == 0 {
+            advice.push(
+                "cut the closed surface open with --cut z=30%, which keeps what lies above 30 % \
+                 of its height, or let its own polygons be the pattern with --pattern mesh"
+                    .into(),
+            );
+        } else if piece.genus > 0 {
+            advice.push(
+                "keep a part without handles with --cut z=50%, or as high as it takes, or let \
+                 its own polygons be the pattern with --pattern mesh"
+                    .into(),
+            );
         }
-        if self.pieces.iter().any(|p| p.genus > 0) {
-            advice.push("cut through each handle, or close it");
-        }
-        if self.pieces.iter().any(|p| p.borders.len() > 1) {
-            advice.push("fill the holes, or cut from each hole to the outer border");
-        }
-        let mut hint = format!("in the modelling program, {}", advice.join("; "));
-        if self.pieces.len() == 1 && !piece.holes().is_empty() {
-            hint += &format!(" (first hole around {})", place(piece.holes()[0].centre));
-        }
-        hint
+        advice.join("; then ")
     }
 }
 
@@ -123,6 +149,7 @@ fn measure(mesh: &Mesh, piece_of: &IdVec<FaceId, usize>, count: usize) -> Vec<Pi
     let far = f64::INFINITY;
     let empty = Piece {
         triangles: 0,
+        area: 0.0,
         borders: Vec::new(),
         genus: 0,
         bounds: [Point3::new(far, far, far), Point3::new(-far, -far, -far)],
@@ -131,6 +158,7 @@ fn measure(mesh: &Mesh, piece_of: &IdVec<FaceId, usize>, count: usize) -> Vec<Pi
     for (face, &p) in piece_of.enumerate() {
         let piece = &mut pieces[p];
         piece.triangles += 1;
+        piece.area += 0.5 * mesh.area_vector(face).norm();
         for corner in mesh.corners(face) {
             let [lo, hi] = piece.bounds;
             piece.bounds = [lo.inf(&corner), hi.sup(&corner)];
@@ -159,16 +187,8 @@ fn count_fans(topology: &Topology, piece_of: &IdVec<FaceId, usize>, count: usize
             continue;
         }
         fans[piece_of[start.face()]] += 1;
-        // Counter-clockwise round the start vertex, then clockwise from it.
-        let mut next = Some(start);
-        while let Some(h) = next.filter(|&h| !seen[h]) {
+        for h in topology.fan(start) {
             seen[h] = true;
-            next = topology.twin(h.prev());
-        }
-        let mut next = topology.twin(start).map(HalfedgeId::next);
-        while let Some(h) = next.filter(|&h| !seen[h]) {
-            seen[h] = true;
-            next = topology.twin(h).map(HalfedgeId::next);
         }
     }
     fans
@@ -197,18 +217,33 @@ const ROWS: usize = 12;
 /// How many holes are placed below the table.
 const HOLES: usize = 5;
 
+impl Shape {
+    /// The pieces that the table shows, in order: the largest, if there are too many.
+    fn shown(&self) -> Vec<usize> {
+        let mut shown: Vec<usize> = (0..self.pieces.len()).collect();
+        // A stable sort: of equal pieces the first are shown.
+        shown.sort_by(|&i, &j| self.pieces[j].area.total_cmp(&self.pieces[i].area));
+        shown.truncate(ROWS);
+        shown.sort_unstable();
+        shown
+    }
+}
+
+/// A table with a line for each piece, numbered from 1, and the places of holes.
 impl fmt::Display for Shape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "  piece  triangles  loops  genus  size, mm")?;
-        for (i, p) in self.pieces.iter().take(ROWS).enumerate() {
+        write!(f, "  piece  triangles  loops  genus  {:>10}  size, mm", "area, mm²")?;
+        for i in self.shown() {
+            let p = &self.pieces[i];
             let size = p.bounds[1] - p.bounds[0];
             write!(
                 f,
-                "\n  {:>5}  {:>9}  {:>5}  {:>5}  {} x {} x {} ({})",
+                "\n  {:>5}  {:>9}  {:>5}  {:>5}  {:>10}  {} x {} x {} ({})",
                 i + 1,
                 p.triangles,
                 p.borders.len(),
                 p.genus,
+                short(p.area),
                 short(size.x),
                 short(size.y),
                 short(size.z),
@@ -216,14 +251,15 @@ impl fmt::Display for Shape {
             )?;
         }
         if self.pieces.len() > ROWS {
-            write!(f, "\n  and {} more pieces", self.pieces.len() - ROWS)?;
+            let more = counted(self.pieces.len() - ROWS, "smaller piece", "smaller pieces");
+            write!(f, "\n  and {more}")?;
         }
         let holes: Vec<&Border> = self.pieces.iter().flat_map(Piece::holes).collect();
         for hole in holes.iter().take(HOLES) {
             write!(f, "\n  hole of {} edges around {}", hole.edges, place(hole.centre))?;
         }
         if holes.len() > HOLES {
-            write!(f, "\n  and {} more holes", holes.len() - HOLES)?;
+            write!(f, "\n  and {}", counted(holes.len() - HOLES, "more hole", "more holes"))?;
         }
         Ok(())
     }

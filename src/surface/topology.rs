@@ -101,6 +101,9 @@ pub enum TopologyError {
     /// The surface is sound, but not one piece with one border.
     #[error("the surface is not one piece with one border:\n{0}")]
     NotADisk(Shape),
+    /// The surface is sound, but has no chart.
+    #[error("the surface is not one piece with a border and no handle:\n{0}")]
+    NotChartable(Shape),
 }
 
 impl TopologyError {
@@ -121,7 +124,12 @@ impl TopologyError {
                  an edge"
                     .into()
             }
-            Self::NotADisk(shape) => shape.hint(),
+            Self::NotADisk(shape) if shape.is_chartable() => {
+                "in the modelling program, fill the holes, or cut from each hole to the outer \
+                 border"
+                    .into()
+            }
+            Self::NotADisk(shape) | Self::NotChartable(shape) => shape.hint(),
         }
     }
 }
@@ -235,7 +243,23 @@ impl Topology {
     /// Half-edges that leave a vertex, counter-clockwise. On a border the first is
     /// the border half-edge. At a bow-tie only one fan is listed.
     pub fn outgoing(&self, v: VertexId) -> impl Iterator<Item = HalfedgeId> + '_ {
-        let first = self.outgoing[v];
+        self.counter_clockwise(self.outgoing[v])
+    }
+
+    /// All half-edges that leave the start of `h` in the same fan of triangles,
+    /// counter-clockwise. On a border the first is the border half-edge, else `h`.
+    pub fn fan(&self, h: HalfedgeId) -> impl Iterator<Item = HalfedgeId> + '_ {
+        let mut first = h;
+        while let Some(twin) = self.twin(first) {
+            first = twin.next();
+            if first == h {
+                break;
+            }
+        }
+        self.counter_clockwise(Some(first))
+    }
+
+    fn counter_clockwise(&self, first: Option<HalfedgeId>) -> impl Iterator<Item = HalfedgeId> {
         std::iter::successors(first, move |&h| self.twin(h.prev()).filter(|&h| Some(h) != first))
     }
 
@@ -326,23 +350,15 @@ impl Topology {
             if seen[start] {
                 continue;
             }
-            let mut first = start;
-            while let Some(twin) = self.twins[first] {
-                first = twin.next();
-                if first == start {
-                    break;
-                }
+            let fan: Vec<HalfedgeId> = self.fan(start).collect();
+            for &h in &fan {
+                seen[h] = true;
             }
-            let v = self.from(first);
+            let v = self.from(start);
             self.fans[v] += 1;
             // A border fan wins over a closed one, so that `is_border` sees it.
-            if self.outgoing[v].is_none() || self.twins[first].is_none() {
-                self.outgoing[v] = Some(first);
-            }
-            let mut next = Some(first);
-            while let Some(h) = next.filter(|&h| !seen[h]) {
-                seen[h] = true;
-                next = self.twins[h.prev()];
+            if self.outgoing[v].is_none() || self.twins[fan[0]].is_none() {
+                self.outgoing[v] = Some(fan[0]);
             }
         }
     }
@@ -393,14 +409,30 @@ fn pair_twins(
 /// # Errors
 /// Anything else, with a table of what was found; see [`TopologyError::hint`].
 pub fn require_disk(mesh: &Mesh) -> Result<Topology, TopologyError> {
-    let topology = Topology::new(mesh)?;
-    let bow_ties = topology.bow_ties();
-    if !bow_ties.is_empty() {
-        let first = bow_ties.iter().take(PLACES).map(|&v| (v, mesh.points[v])).collect();
-        return Err(TopologyError::NonManifoldVertices { count: bow_ties.len(), first });
-    }
+    let topology = without_bow_ties(mesh)?;
     let shape = Shape::new(mesh, &topology);
     if shape.is_disk() { Ok(topology) } else { Err(TopologyError::NotADisk(shape)) }
+}
+
+/// Connectivity of a surface that can be laid out flat once its holes are filled: one
+/// piece, a border, no handle, no bow-tie.
+///
+/// # Errors
+/// Anything else, with a table of what was found; see [`TopologyError::hint`].
+pub fn require_chartable(mesh: &Mesh) -> Result<Topology, TopologyError> {
+    let topology = without_bow_ties(mesh)?;
+    let shape = Shape::new(mesh, &topology);
+    if shape.is_chartable() { Ok(topology) } else { Err(TopologyError::NotChartable(shape)) }
+}
+
+fn without_bow_ties(mesh: &Mesh) -> Result<Topology, TopologyError> {
+    let topology = Topology::new(mesh)?;
+    let bow_ties = topology.bow_ties();
+    if bow_ties.is_empty() {
+        return Ok(topology);
+    }
+    let first = bow_ties.iter().take(PLACES).map(|&v| (v, mesh.points[v])).collect();
+    Err(TopologyError::NonManifoldVertices { count: bow_ties.len(), first })
 }
 
 impl fmt::Display for HalfedgeId {

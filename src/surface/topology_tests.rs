@@ -1,6 +1,7 @@
 //! Shapes whose pieces, loops and genus are known.
 
 use super::*;
+use crate::surface::bow_ties::split_bow_ties;
 use crate::surface::samples;
 use proptest::prelude::*;
 
@@ -166,14 +167,77 @@ fn what_is_no_disk_is_told_in_a_table() {
     assert_eq!(
         error.to_string(),
         "the surface is not one piece with one border:\n  \
-         piece  triangles  loops  genus  size, mm\n      \
-         1         48      2      0  5 x 5 x 0 (1 hole)\n      \
-         2          4      0      0  1 x 1 x 1 (closed)\n  \
+         piece  triangles  loops  genus   area, mm²  size, mm\n      \
+         1         48      2      0          24  5 x 5 x 0 (1 hole)\n      \
+         2          4      0      0        2.37  1 x 1 x 1 (closed)\n  \
          hole of 4 edges around (2.5, 2.5, 0) mm"
     );
-    for word in ["keep one piece", "cut the closed surface open", "fill the holes"] {
-        assert!(error.hint().contains(word), "{}", error.hint());
+    assert!(error.hint().starts_with("keep one piece with --component largest (piece 1)"));
+    assert!(!error.hint().contains("--cut"), "the largest piece has a border");
+}
+
+#[test]
+fn holes_are_chartable_but_no_disk() {
+    let sheet = grid(5, 5, [false, false], &[(1, 1), (3, 3)]);
+    require_chartable(&sheet).expect("holes are filled by the chart");
+    let error = require_disk(&sheet).expect_err("two holes");
+    assert!(matches!(error, TopologyError::NotADisk(_)));
+    assert!(error.hint().contains("fill the holes"), "{}", error.hint());
+}
+
+#[test]
+fn what_has_no_chart_is_told_with_the_option_that_helps() {
+    let cases = [
+        (tetrahedron(), &["--cut z=30%", "--pattern mesh"][..]),
+        (grid(5, 5, [true, true], &[]), &["--cut z=50%", "--pattern mesh"]),
+        (grid(5, 5, [true, true], &[(2, 2)]), &["--cut z=50%", "--pattern mesh"]),
+        (Mesh::default(), &["no triangles"]),
+    ];
+    for (mesh, words) in cases {
+        let error = require_chartable(&mesh).expect_err("no chart");
+        assert!(error.to_string().contains("not one piece with a border and no handle"), "{error}");
+        for word in words {
+            assert!(error.hint().contains(word), "{}", error.hint());
+        }
     }
+}
+
+#[test]
+fn of_many_pieces_the_largest_are_shown() {
+    let triangles: Vec<[usize; 3]> = (0..20).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let points: Vec<[f64; 3]> = (1..=20)
+        .flat_map(|i| {
+            [[0.0, 0.0, f64::from(i)], [f64::from(i), 0.0, 0.0], [0.0, f64::from(i), 0.0]]
+        })
+        .collect();
+    let many = mesh(&points, &triangles);
+    let shape = Shape::new(&many, &Topology::new(&many).expect("sound"));
+    let table = shape.to_string();
+    assert_eq!(shape.largest(), Some(19));
+    assert!(table.ends_with("and 8 smaller pieces"), "{table}");
+    assert!(!table.contains("\n      8 ") && table.contains("\n      9 "), "{table}");
+    assert!(shape.hint().contains("largest (piece 20)"), "{}", shape.hint());
+}
+
+#[test]
+fn a_divided_bow_tie_leaves_the_triangles_where_they_are() {
+    let tie = mesh(
+        &[[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [-1.0, -1.0, 0.0]],
+        &[[0, 1, 2], [0, 3, 4]],
+    );
+    let sheet = grid(4, 4, [false, false], &[(1, 1), (2, 2)]);
+    for (before, shape) in [(tie, &[(1, 0), (1, 0)][..]), (sheet, &[(2, 0)])] {
+        let (after, count) = split_bow_ties(before.clone());
+        assert_eq!((count, after.points.len()), (1, before.points.len() + 1));
+        assert_eq!(Topology::new(&after).expect("sound").bow_ties(), []);
+        for face in before.triangles.ids() {
+            assert_eq!(before.corners(face), after.corners(face));
+        }
+        assert_eq!(loops_and_genus(&after), shape);
+        assert_eq!(split_bow_ties(after.clone()), (after, 0));
+    }
+    let sheet = split_bow_ties(grid(4, 4, [false, false], &[(1, 1), (2, 2)])).0;
+    require_chartable(&sheet).expect("one hole of eight edges");
 }
 
 #[test]
@@ -187,5 +251,11 @@ proptest! {
     fn any_triangles_give_an_answer(corners in proptest::collection::vec([0_usize..9, 0..9, 0..9], 0..30)) {
         let soup = mesh(&[[0.0; 3]; 8], &corners);
         let _ = require_disk(&soup);
+        let (divided, count) = split_bow_ties(soup.clone());
+        prop_assert_eq!(divided.triangles.len(), soup.triangles.len());
+        if let Ok(topology) = Topology::new(&divided) {
+            prop_assert!(topology.bow_ties().is_empty());
+            prop_assert_eq!(divided.points.len() > soup.points.len(), count > 0);
+        }
     }
 }
