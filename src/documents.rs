@@ -28,7 +28,7 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
     let mut files = Files::default();
     files.add("structure.json", structure.to_json()?);
     files.add("report.json", report(design, model).to_json()?);
-    files.add("design.toml", design.to_toml(model.fit.edge, &stock));
+    files.add("design.toml", design.to_toml(&model.fit, &stock));
     if design.wants(Part::Csv) {
         files.add("rods.csv", tables::rods(frame, &classes)?);
         files.add("contacts.csv", tables::contacts(frame)?);
@@ -67,10 +67,10 @@ impl Files {
 fn report(design: &Design, model: &Model) -> Report {
     Report {
         model: design.name(),
-        pattern: design.pattern.name.into(),
+        pattern: design.tiles.name(),
         rod_diameter: design.rod,
-        turn: design.turn.to_degrees(),
-        surface: report::surface(&model.surface, &model.notes, &model.distortion),
+        turn: model.fit.turn.to_degrees(),
+        surface: report::surface(&model.guide, &model.notes),
         fit: report::fit(&model.fit),
         closing: model.formed.closing,
         measures: model.measures.clone(),
@@ -97,9 +97,9 @@ fn add_support_map(design: &Design, model: &Model, files: &mut Files) -> Result<
 }
 
 fn sheet_settings(design: &Design, model: &Model) -> SheetSettings {
-    let pattern = format!("pattern {}: {}", design.pattern.name, design.pattern.summary);
+    let pattern = format!("pattern {}: {}", design.tiles.name(), design.tiles.summary());
     let edge = design.units.measure(model.fit.edge);
-    let unit = format!("rods turned by {:.1}°, tile edge {edge}", design.turn.to_degrees());
+    let unit = format!("rods turned by {:.1}°, tile edge {edge}", model.fit.turn.to_degrees());
     SheetSettings {
         model: design.name(),
         paper: design.paper,

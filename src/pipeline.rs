@@ -1,33 +1,32 @@
 //! The whole way, from a design to a finished model. Read this first; what is then
 //! drawn and written of the model stands in [`documents`](crate::documents).
 
-use crate::chart::{ChartError, Distortion, PlanarChart};
-use crate::design::Design;
-use crate::frame::canvas::{PlaneCanvas, TooManyUnits};
+use crate::chart::{ChartError, PlanarChart};
+use crate::design::{Design, Sphere, Tiles};
+use crate::frame::canvas::{Canvas, MeshCanvas, PlaneCanvas, SphereCanvas, TooManyUnits};
 use crate::frame::fit::{Fit, FitBy, FitError, fit};
+use crate::frame::fit_turn::{fit_turn, safe_turns};
 use crate::frame::form::{FormError, FormSettings, Formed, form, median_rise};
+use crate::frame::guide::Guide;
 use crate::frame::measure::{Measures, measure};
+use crate::pattern::Pattern;
 use crate::shop::cutlist::{CutError, CutPlan, Stock, plan};
 use crate::shop::lengths::cut_lengths;
-use crate::surface::locate::Locator;
-use crate::surface::mend::MendError;
-use crate::surface::read::{ReadError, read};
+use crate::surface::prepare::{PrepareError, prepare, prepare_polygons};
+use crate::surface::read::{ReadError, read, read_polygons};
 use crate::surface::topology::{TopologyError, require_disk};
-use crate::surface::up::{upright, with_file_axes};
-use crate::surface::{Mesh, Point3};
-use crate::tiling::Placement;
+use crate::tiling::midsphere::{MidsphereError, midsphere};
+use crate::tiling::{Net, Placement};
 use thiserror::Error;
 
 /// A finished model: the frame and everything that was found on the way.
 #[derive(Debug)]
 pub struct Model {
-    /// The guiding surface, mm, z up, scaled.
-    pub surface: Mesh,
+    /// The surface that the frame follows.
+    pub guide: Guide,
     /// What was mended in the surface, a sentence each.
     pub notes: Vec<String>,
-    /// How much the chart distorts.
-    pub distortion: Distortion,
-    /// The tile edge and the rise at it.
+    /// The size of the units, the turn of the rods, and the rise that comes of them.
     pub fit: Fit,
     /// The frame.
     pub formed: Formed,
@@ -63,67 +62,124 @@ pub enum Step {
 /// # Errors
 /// [`BuildError`] with what is wrong and what to try.
 pub fn build(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, BuildError> {
+    match &design.tiles {
+        Tiles::Pattern(pattern) => on_chart(design, pattern, begin),
+        Tiles::Mesh => on_polygons(design, begin),
+        Tiles::Sphere(sphere) => on_sphere(design, sphere, begin),
+    }
+}
+
+/// A pattern of the plane, laid on the flattened surface.
+fn on_chart(
+    design: &Design,
+    pattern: &'static Pattern,
+    begin: &mut dyn FnMut(Step),
+) -> Result<Model, BuildError> {
     begin(Step::Read);
-    let (surface, notes) = guiding_surface(design)?;
+    let reading = read(&design.surface_file)?;
+    let notes = reading.notes.clone();
+    let surface = prepare(reading, design.up, design.component, design.cut, design.span)?;
     begin(Step::Chart);
     let topology = require_disk(&surface)?;
     let chart = PlanarChart::new(surface.clone(), &topology)?;
     begin(Step::Fit);
-    let fit = tile_edge(design, &chart)?;
-    begin(Step::Form);
-    let settings = form_settings(design, &surface);
-    let placement = placement(design, fit.edge);
-    let canvas = PlaneCanvas::new(&chart, design.pattern, placement, design.turn)?;
-    let formed = form(&canvas, &settings)?;
-    begin(Step::Measure);
-    let measures = measure(&formed, &Locator::new(&surface));
-    begin(Step::Saw);
-    let plan = sawing_plan(design, &formed)?;
-    Ok(Model { surface, notes, distortion: chart.distortion(), fit, formed, measures, plan })
+    let turn = design.turn.unwrap_or(pattern.turn.to_radians());
+    let place = |edge| Placement { origin: design.origin.into(), rotation: design.rotate, edge };
+    let (canvas, fit) = match design.unit {
+        None => {
+            let fit = fit(&chart, pattern, &place(design.rod), turn, design.rod)?;
+            (PlaneCanvas::new(&chart, pattern, place(fit.edge), turn)?, fit)
+        }
+        Some(edge) => {
+            let canvas = PlaneCanvas::new(&chart, pattern, place(edge), turn)?;
+            let fit = as_given(&canvas, turn);
+            (canvas, fit)
+        }
+    };
+    let guide = Guide::Chart { mesh: surface, distortion: chart.distortion() };
+    finish(design, &canvas, fit, guide, notes, begin)
 }
 
-/// Reads the surface, turns it upright and scales it.
-fn guiding_surface(design: &Design) -> Result<(Mesh, Vec<String>), BuildError> {
-    let reading = read(&design.surface_file)?;
-    let mut mesh = match design.up {
-        Some(up) if reading.y_up_metres => upright(&with_file_axes(&reading.mesh), up)?,
-        Some(up) => upright(&reading.mesh, up)?,
-        None => reading.mesh,
-    };
-    if let (Some(span), Some([lo, hi])) = (design.span, mesh.bounds()) {
-        let longest = (hi.x - lo.x).max(hi.y - lo.y);
-        if longest <= 0.0 {
-            return Err(BuildError::NoSpan);
-        }
-        for p in mesh.points.iter_mut() {
-            *p = Point3::from(p.coords * (span / longest));
-        }
+/// The polygons of the surface as they are.
+fn on_polygons(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, BuildError> {
+    begin(Step::Read);
+    let reading = read_polygons(&design.surface_file)?;
+    let notes = reading.notes.clone();
+    let mesh = prepare_polygons(reading, design.up, design.component, design.cut, design.span)?;
+    begin(Step::Fit);
+    let canvas = MeshCanvas::new(&mesh.points, &mesh.faces, 0.0);
+    let fit = turned_fit(design, canvas.net(), |turn| canvas.turned(turn))?;
+    finish(design, &canvas.turned(fit.turn), fit, Guide::Mesh(mesh), notes, begin)
+}
+
+/// A polyhedron on a sphere.
+fn on_sphere(
+    design: &Design,
+    sphere: &Sphere,
+    begin: &mut dyn FnMut(Step),
+) -> Result<Model, BuildError> {
+    begin(Step::Chart);
+    let mut form = midsphere(&sphere.notation.polyhedron())?;
+    form.warp(sphere.warp);
+    begin(Step::Fit);
+    let radius = sphere.radius;
+    let cut = design.cut.map(|plane| plane.height([-radius, radius]));
+    if let Some(at) = cut.filter(|at| !(-radius..radius).contains(at)) {
+        return Err(BuildError::CutPastSphere { at, radius });
     }
-    Ok((mesh, reading.notes))
+    let canvas = SphereCanvas::new(&form, radius, cut, design.rotate, 0.0);
+    let fit = turned_fit(design, canvas.net(), |turn| canvas.turned(turn))?;
+    let guide = Guide::Sphere { faces: canvas.net().tiles.len(), radius, low: canvas.low() };
+    finish(design, &canvas.turned(fit.turn), fit, guide, Vec::new(), begin)
 }
 
-fn placement(design: &Design, edge: f64) -> Placement {
-    Placement { origin: design.origin.into(), rotation: design.rotate, edge }
-}
-
-/// The tile edge given, or the one that fits.
-fn tile_edge(design: &Design, chart: &PlanarChart) -> Result<Fit, BuildError> {
-    let Some(edge) = design.unit else {
-        let start = placement(design, design.rod);
-        return Ok(fit(chart, design.pattern, &start, design.turn, design.rod)?);
-    };
-    let canvas = PlaneCanvas::new(chart, design.pattern, placement(design, edge), design.turn)?;
-    let (units, rise) = median_rise(&canvas).unwrap_or_default();
-    Ok(Fit { edge, turn: design.turn, rise, units, by: FitBy::Given })
-}
-
-fn form_settings(design: &Design, surface: &Mesh) -> FormSettings {
-    FormSettings {
+/// Everything after the tiles are found.
+fn finish(
+    design: &Design,
+    canvas: &impl Canvas,
+    fit: Fit,
+    guide: Guide,
+    notes: Vec<String>,
+    begin: &mut dyn FnMut(Step),
+) -> Result<Model, BuildError> {
+    begin(Step::Form);
+    let settings = FormSettings {
         diameter: design.rod,
         overhang: design.overhang,
         round: design.round,
         layering: design.layer,
-        surface_low: surface.bounds().map_or(0.0, |[lo, _]| lo.z),
+        surface_low: guide.low(),
+    };
+    let formed = form(canvas, &settings)?;
+    begin(Step::Measure);
+    let measures = measure(&formed, &guide);
+    begin(Step::Saw);
+    let plan = sawing_plan(design, &formed)?;
+    Ok(Model { guide, notes, fit, formed, measures, plan })
+}
+
+/// Size and turn as the user gave them, with the rise that comes of them.
+fn as_given(canvas: &impl Canvas, turn: f64) -> Fit {
+    let (units, rise) = median_rise(canvas).unwrap_or_default();
+    Fit { edge: canvas.edge(), turn, rise, units, by: FitBy::Given }
+}
+
+/// The turn given, if it is safe for these tiles, or the one that fits.
+fn turned_fit<C: Canvas>(
+    design: &Design,
+    net: &Net,
+    make: impl Fn(f64) -> C,
+) -> Result<Fit, BuildError> {
+    let turns = safe_turns(net);
+    match design.turn {
+        None => Ok(fit_turn(make, turns, design.rod)?),
+        Some(turn) if (turns[0]..=turns[1]).contains(&turn.abs()) => {
+            Ok(as_given(&make(turn), turn))
+        }
+        Some(turn) => {
+            let [turn, least, most] = [turn, turns[0], turns[1]].map(f64::to_degrees);
+            Err(BuildError::Turn { turn, least, most })
+        }
     }
 }
 
@@ -148,17 +204,32 @@ pub enum BuildError {
     /// The surface file.
     #[error("{0}. {hint}", hint = sentence(.0.hint()))]
     Read(#[from] ReadError),
-    /// The surface, once turned.
-    #[error("{0}. {hint}", hint = sentence(.0.hint()))]
-    Mend(#[from] MendError),
+    /// The surface, on the way to its place.
+    #[error("{0}. {hint}", hint = sentence(&.0.hint()))]
+    Prepare(#[from] PrepareError),
     /// The surface's shape.
     #[error("{0}\n{hint}", hint = sentence(&.0.hint()))]
     Topology(#[from] TopologyError),
-    /// A surface that stands on edge has no span.
+    /// The polyhedron.
+    #[error(transparent)]
+    Midsphere(#[from] MidsphereError),
+    /// A sphere that is cut away whole, or not at all.
     #[error(
-        "the surface has no horizontal extent, so --span cannot scale it. Set --up to the axis that points up"
+        "the cut at z = {at:.1} mm passes by the sphere, which reaches from {} to {radius} mm. \
+         Cut between these heights, or at a share of them such as --cut z=40%", -radius
     )]
-    NoSpan,
+    CutPastSphere {
+        /// Height of the cut, mm.
+        at: f64,
+        /// Radius of the sphere, mm.
+        radius: f64,
+    },
+    /// Rods turned too little or too far for the tiles, in degrees.
+    #[error(
+        "turn = {turn}deg: with these tiles the frame holds together between {least} and {most} \
+         degrees, either way round. Leave --turn out to let it be fitted to the rods"
+    )]
+    Turn { turn: f64, least: f64, most: f64 },
     /// The chart.
     #[error(transparent)]
     Chart(#[from] ChartError),

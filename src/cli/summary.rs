@@ -40,7 +40,7 @@ pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) 
         ("left out", left_out(model)),
     ];
     let mut text = String::new();
-    let title = format!("{}: {} reciprocal frame", design.name(), design.pattern.name);
+    let title = format!("{}: {} reciprocal frame", design.name(), design.tiles.name());
     writeln!(text, "{}", terminal.bold(&title)).expect("writing to a string cannot fail");
     for (label, value) in rows {
         writeln!(text, "  {label:<16} {value}").expect("writing to a string cannot fail");

@@ -100,7 +100,8 @@ pub fn fit(
 ) -> Result<Fit, FitError> {
     let try_edge = |edge: f64| {
         let placement = Placement { edge, ..*placement };
-        let (units, rise) = median_rise(&PlaneCanvas::new(chart, pattern, placement, turn).ok()?)?;
+        let (units, rise) =
+            median_rise(&PlaneCanvas::new(chart, pattern, placement, turn).ok()?).ok()?;
         let fit = Fit { edge, turn, rise, units, by: FitBy::Edge };
         (fit.units >= LIKENESS).then_some(fit)
     };

@@ -7,7 +7,7 @@
 
 use super::canvas::Canvas;
 use super::fit::{Fit, FitBy};
-use super::form::median_rise;
+use super::form::{FormError, median_rise};
 use crate::tiling::Net;
 
 /// Part of the diameter below which the rise at the greatest turn says that the surface
@@ -34,13 +34,19 @@ pub fn safe_turns(net: &Net) -> [f64; 2] {
 }
 
 /// Finds the turn for rods of `diameter` mm within `turns`, radians, by trying out
-/// canvases; `make` gives the surface with its rods at a turn. `None` where hardly a
-/// unit can be made at any turn.
-pub fn fit_turn<C: Canvas>(make: impl Fn(f64) -> C, turns: [f64; 2], diameter: f64) -> Option<Fit> {
+/// canvases; `make` gives the surface with its rods at a turn.
+///
+/// # Errors
+/// [`FormError::TooFewUnits`] where hardly a unit can be made.
+pub fn fit_turn<C: Canvas>(
+    make: impl Fn(f64) -> C,
+    turns: [f64; 2],
+    diameter: f64,
+) -> Result<Fit, FormError> {
     let try_turn = |turn: f64, by: FitBy| {
         let canvas = make(turn);
         let (units, rise) = median_rise(&canvas)?;
-        Some(Fit { edge: canvas.edge(), turn, rise, units, by })
+        Ok(Fit { edge: canvas.edge(), turn, rise, units, by })
     };
     let [mut low, mut high] = turns;
     let least = try_turn(low, FitBy::TurnLimit)?;
@@ -49,10 +55,10 @@ pub fn fit_turn<C: Canvas>(make: impl Fn(f64) -> C, turns: [f64; 2], diameter: f
         return try_turn(PLAIN_TURN.min(high), FitBy::Plain);
     }
     if least.rise >= diameter {
-        return Some(least);
+        return Ok(least);
     }
     if most.rise <= diameter {
-        return Some(most);
+        return Ok(most);
     }
     for _ in 0..BISECTIONS {
         let middle = (low + high) / 2.0;

@@ -333,15 +333,29 @@ fn clash_faults(
 }
 
 /// The number of units that a canvas would have, and their median rise, mm: what
-/// fitting looks at. `None` where it has too few, or units that cannot be woven.
-pub fn median_rise(canvas: &impl Canvas) -> Option<(usize, f64)> {
-    let tiles = crop(canvas, &held(canvas));
-    if tiles.len() < LEAST_UNITS {
-        return None;
+/// fitting looks at.
+///
+/// # Errors
+/// [`FormError::TooFewUnits`].
+pub fn median_rise(canvas: &impl Canvas) -> Result<(usize, f64), FormError> {
+    let mut held = held(canvas);
+    loop {
+        let tiles = crop(canvas, &held);
+        if tiles.len() < LEAST_UNITS {
+            return Err(too_few(tiles.len(), canvas));
+        }
+        let failed: Vec<TileId> = match weave(canvas, &tiles) {
+            Err(failed) => failed.into_iter().map(|f| f.tile).collect(),
+            Ok(weave) => match lift(&weave) {
+                Err(Parallel(unit)) => vec![weave.units[unit].tile],
+                Ok(lifted) => {
+                    let rises = lifted.rises(&weave);
+                    let mut sizes: Vec<f64> = rises.iter().map(|rise| rise.abs()).collect();
+                    sizes.sort_by(f64::total_cmp);
+                    return Ok((tiles.len(), sizes[sizes.len() / 2]));
+                }
+            },
+        };
+        failed.into_iter().for_each(|tile| held[tile] = false);
     }
-    let weave = weave(canvas, &tiles).ok()?;
-    let mut rises: Vec<f64> =
-        lift(&weave).ok()?.rises(&weave).iter().map(|rise| rise.abs()).collect();
-    rises.sort_by(f64::total_cmp);
-    Some((tiles.len(), rises[rises.len() / 2]))
 }

@@ -2,9 +2,9 @@
 
 use super::Frame;
 use super::form::Formed;
+use super::guide::Guide;
 use crate::ids::{ContactId, IdVec};
 use crate::surface::Point3;
-use crate::surface::locate::Locator;
 use serde::Serialize;
 use std::f64::consts::PI;
 
@@ -76,7 +76,7 @@ const BINS: usize = 20;
 pub const SAME_LENGTH: f64 = 1e-6;
 
 /// Measures a frame against its surface.
-pub fn measure(formed: &Formed, surface: &Locator) -> Measures {
+pub fn measure(formed: &Formed, guide: &Guide) -> Measures {
     let frame = &formed.frame;
     let mut lengths: Vec<f64> = frame.rods.iter().map(|r| r.axis.length()).collect();
     lengths.sort_by(f64::total_cmp);
@@ -97,7 +97,7 @@ pub fn measure(formed: &Formed, surface: &Locator) -> Measures {
         worst_gap: frame.contacts.iter().map(|c| gap_error(c.gap)).fold(0.0, f64::max),
         moves: spread(formed.moves.iter().map(|m| m / w)),
         rises: spread(formed.rises.iter().map(|r| r / w)),
-        from_surface: spread(middles.iter().map(|&p| surface.closest(p).distance)),
+        from_surface: spread(guide.distances(&middles).into_iter()),
         unit_angles: spread(angles.iter().copied()),
         unit_sides: spread(sides.iter().copied()),
         histograms: Histograms {

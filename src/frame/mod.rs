@@ -13,6 +13,7 @@ pub mod fault;
 pub mod fit;
 pub mod fit_turn;
 pub mod form;
+pub mod guide;
 pub mod layer;
 pub mod lift;
 pub mod measure;

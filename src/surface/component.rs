@@ -1,9 +1,10 @@
 //! Keeps one piece of a surface.
 
 use crate::ids::{FaceId, Id, IdVec, VertexId};
-use crate::surface::Mesh;
+use crate::surface::polygons::PolygonMesh;
 use crate::surface::shape::{Shape, counted};
 use crate::surface::topology::{Topology, TopologyError};
+use crate::surface::{Mesh, Point3};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::fmt;
 use std::str::FromStr;
@@ -55,33 +56,80 @@ impl ComponentError {
 /// A piece that is not there, or a mesh without sound connectivity.
 pub fn keep(mesh: &Mesh, component: Component) -> Result<Mesh, ComponentError> {
     let topology = Topology::new(mesh)?;
-    let (piece_of, count) = topology.components();
-    let shape = || Shape::new(mesh, &topology);
-    let wanted = match component {
-        Component::Number(n) => n.checked_sub(1),
-        Component::Largest => shape().largest(),
-    };
-    let Some(wanted) = wanted.filter(|&w| w < count) else {
-        let number = if let Component::Number(n) = component { n } else { 1 };
-        return Err(ComponentError::Missing { number, shape: shape() });
-    };
+    let (piece_of, _) = topology.components();
+    let wanted = chosen(mesh, &topology, component)?;
     Ok(part(mesh, |face| piece_of[face] == wanted))
+}
+
+/// The number of the piece asked for, counted from 0.
+fn chosen(mesh: &Mesh, topology: &Topology, component: Component) -> Result<usize, ComponentError> {
+    let shape = Shape::new(mesh, topology);
+    let (wanted, number) = match component {
+        Component::Number(n) => (n.checked_sub(1), n),
+        Component::Largest => (shape.largest(), 1),
+    };
+    match wanted.filter(|&w| w < shape.pieces.len()) {
+        Some(wanted) => Ok(wanted),
+        None => Err(ComponentError::Missing { number, shape }),
+    }
+}
+
+/// The same of a mesh of polygons, faces and vertices in their order.
+///
+/// # Errors
+/// As [`keep`].
+pub fn keep_polygons(
+    mesh: &PolygonMesh,
+    component: Component,
+) -> Result<PolygonMesh, ComponentError> {
+    let triangles = mesh.triangles();
+    let topology = Topology::new(&triangles)?;
+    let (piece_of, _) = topology.components();
+    let wanted = chosen(&triangles, &topology, component)?;
+    // Each face gives two triangles less than it has corners, in the order of the faces.
+    let mut first = 0;
+    let in_piece = |face: &&Vec<VertexId>| {
+        let piece = piece_of[FaceId::new(first)];
+        first += face.len() - 2;
+        piece == wanted
+    };
+    Ok(part_of_polygons(mesh, mesh.faces.iter().filter(in_piece)))
+}
+
+/// The faces that are wanted, and the vertices that they use, in their order.
+pub(super) fn part_of_polygons<'a>(
+    mesh: &PolygonMesh,
+    wanted: impl Iterator<Item = &'a Vec<VertexId>>,
+) -> PolygonMesh {
+    let kept: Vec<&Vec<VertexId>> = wanted.collect();
+    let (points, new) = used(&mesh.points, kept.iter().flat_map(|f| f.iter()));
+    let faces = kept.iter().map(|f| f.iter().map(|&v| new[v]).collect()).collect();
+    PolygonMesh { points, faces }
 }
 
 /// The triangles that are wanted, and the vertices that they use, in their order.
 pub(super) fn part(mesh: &Mesh, wanted: impl Fn(FaceId) -> bool) -> Mesh {
     let kept: Vec<[VertexId; 3]> =
         mesh.triangles.enumerate().filter(|(f, _)| wanted(*f)).map(|(_, t)| *t).collect();
-    let mut used = vec![false; mesh.points.len()];
-    for v in kept.iter().flatten() {
+    let (points, new) = used(&mesh.points, kept.iter().flatten());
+    Mesh { points, triangles: kept.iter().map(|t| t.map(|v| new[v])).collect() }
+}
+
+/// The points of some corners, in their order, and the new number of each.
+fn used<'a>(
+    points: &IdVec<VertexId, Point3>,
+    corners: impl Iterator<Item = &'a VertexId>,
+) -> (IdVec<VertexId, Point3>, IdVec<VertexId, VertexId>) {
+    let mut used = vec![false; points.len()];
+    for v in corners {
         used[v.index()] = true;
     }
-    let mut points = IdVec::new();
-    let mut new: IdVec<VertexId, VertexId> = mesh.points.ids().collect();
-    for (v, &p) in mesh.points.enumerate().filter(|(v, _)| used[v.index()]) {
-        new[v] = points.push(p);
+    let mut kept = IdVec::new();
+    let mut new: IdVec<VertexId, VertexId> = points.ids().collect();
+    for (v, &p) in points.enumerate().filter(|(v, _)| used[v.index()]) {
+        new[v] = kept.push(p);
     }
-    Mesh { points, triangles: kept.iter().map(|t| t.map(|v| new[v])).collect() }
+    (kept, new)
 }
 
 impl FromStr for Component {

@@ -11,7 +11,8 @@
 
 use crate::ids::{FaceId, IdVec, VertexId};
 use crate::surface::bow_ties::split_bow_ties;
-use crate::surface::component::part;
+use crate::surface::component::{part, part_of_polygons};
+use crate::surface::polygons::PolygonMesh;
 use crate::surface::{Mesh, Point3};
 use crate::units::{Length, UnitError};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
@@ -126,6 +127,23 @@ pub fn cut(mesh: &Mesh, plane: CutPlane) -> Result<Mesh, CutFault> {
     }
     mesh.triangles = triangles;
     Ok(split_bow_ties(part(&mesh, |_| true)).0)
+}
+
+/// The polygons that lie wholly above a plane or in it, as a mesh of their own.
+///
+/// # Errors
+/// A plane that passes by the surface, or leaves no polygon whole.
+pub fn whole_above(mesh: &PolygonMesh, plane: CutPlane) -> Result<PolygonMesh, CutFault> {
+    let [lo, hi] = mesh.bounds().ok_or(CutFault::Empty)?;
+    let snap = SNAP * (hi - lo).norm();
+    let range = [lo.z, hi.z];
+    let at = plane.height(range);
+    if at < lo.z - snap || at > hi.z + snap {
+        return Err(CutFault::Outside { plane, at, range });
+    }
+    let above = |face: &&Vec<VertexId>| face.iter().all(|&v| mesh.points[v].z >= at - snap);
+    let kept = part_of_polygons(mesh, mesh.faces.iter().filter(above));
+    if kept.faces.is_empty() { Err(CutFault::NothingAbove { plane, range }) } else { Ok(kept) }
 }
 
 /// Where a vertex lies.

@@ -1,11 +1,14 @@
 //! From a file's mesh to the guiding surface: turned upright, cut, reduced to one piece
 //! and scaled, in this order.
 
-use crate::surface::component::{Component, ComponentError, keep};
-use crate::surface::cut::{CutFault, CutPlane, cut};
+use crate::ids::{IdVec, VertexId};
+use crate::surface::component::{Component, ComponentError, keep, keep_polygons};
+use crate::surface::cut::{CutFault, CutPlane, cut, whole_above};
+use crate::surface::faces::bounds;
 use crate::surface::mend::MendError;
-use crate::surface::read::Reading;
-use crate::surface::up::{Up, upright, with_file_axes};
+use crate::surface::polygons::{PolygonMesh, mend_polygons};
+use crate::surface::read::{PolygonReading, Reading};
+use crate::surface::up::{Up, file_axes, upright, with_file_axes};
 use crate::surface::{Mesh, Point3};
 
 /// Why a mesh cannot be made the guiding surface asked for.
@@ -64,16 +67,49 @@ pub fn prepare(
     if let Some(component) = component {
         mesh = keep(&mesh, component)?;
     }
-    if let (Some(span), Some([lo, hi])) = (span, mesh.bounds()) {
-        let longest = (hi.x - lo.x).max(hi.y - lo.y);
-        if longest <= 0.0 {
-            return Err(PrepareError::NoSpan);
-        }
-        for p in mesh.points.iter_mut() {
-            *p = Point3::from(p.coords * (span / longest));
-        }
-    }
+    scale(&mut mesh.points, span)?;
     Ok(mesh)
+}
+
+/// The same for a mesh whose polygons are to stay whole: a cut drops those that reach
+/// below it.
+///
+/// # Errors
+/// [`PrepareError`], with what to try.
+pub fn prepare_polygons(
+    reading: PolygonReading,
+    up: Option<Up>,
+    component: Option<Component>,
+    plane: Option<CutPlane>,
+    span: Option<f64>,
+) -> Result<PolygonMesh, PrepareError> {
+    let PolygonReading { mut mesh, y_up_metres, .. } = reading;
+    if let Some(up) = up {
+        let turn = |&p: &Point3| up.upright(if y_up_metres { file_axes(p) } else { p });
+        let points = mesh.points.iter().map(turn).collect();
+        mesh = mend_polygons(PolygonMesh { points, faces: mesh.faces })?.mesh;
+    }
+    if let Some(plane) = plane {
+        mesh = whole_above(&mesh, plane)?;
+    }
+    if let Some(component) = component {
+        mesh = keep_polygons(&mesh, component)?;
+    }
+    scale(&mut mesh.points, span)?;
+    Ok(mesh)
+}
+
+/// Scales points about the origin so that their longest horizontal side is `span` mm.
+fn scale(points: &mut IdVec<VertexId, Point3>, span: Option<f64>) -> Result<(), PrepareError> {
+    let (Some(span), Some([lo, hi])) = (span, bounds(points)) else { return Ok(()) };
+    let longest = (hi.x - lo.x).max(hi.y - lo.y);
+    if longest <= 0.0 {
+        return Err(PrepareError::NoSpan);
+    }
+    for p in points.iter_mut() {
+        *p = Point3::from(p.coords * (span / longest));
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -60,10 +60,15 @@ pub fn upright(mesh: &Mesh, up: Up) -> Result<Mesh, MendError> {
     Ok(mend(Mesh { points, triangles: mesh.triangles.clone() })?.mesh)
 }
 
+/// A point that was read with y up, in the axes of its file.
+pub fn file_axes(p: Point3) -> Point3 {
+    Point3::new(p.x, p.z, -p.y)
+}
+
 /// Turns a mesh that was read with y up back to the axes of its file, so that another
 /// axis can be taken as up.
 pub fn with_file_axes(mesh: &Mesh) -> Mesh {
-    let points = mesh.points.iter().map(|p| Point3::new(p.x, p.z, -p.y)).collect();
+    let points = mesh.points.iter().map(|&p| file_axes(p)).collect();
     Mesh { points, triangles: mesh.triangles.clone() }
 }
 

@@ -1,13 +1,12 @@
 //! report.json: what was measured on the way and of the result. Lengths in mm,
 //! angles in degrees. It holds no times, so that the same run gives the same bytes.
 
-use crate::chart::Distortion;
 use crate::frame::Frame;
 use crate::frame::close::Closing;
 use crate::frame::fit::{Fit, FitBy};
+use crate::frame::guide::Guide;
 use crate::frame::measure::Measures;
 use crate::shop::cutlist::CutPlan;
-use crate::surface::Mesh;
 use serde::Serialize;
 
 /// The report of a run.
@@ -35,20 +34,36 @@ impl Report {
     }
 }
 
-/// The guiding surface and its chart.
+/// The guiding surface.
 #[derive(Clone, Debug, Serialize)]
 pub struct Surface {
-    pub triangles: usize,
     /// Width, depth, height.
     pub size: [f64; 3],
     /// What was mended.
     pub mended: Vec<String>,
-    /// Mean and largest change of a triangle angle.
-    pub angle_distortion: [f64; 2],
-    /// Least and greatest length on the surface of a unit length in the plane.
-    pub scale: [f64; 2],
-    /// Steps of the flattening.
-    pub flattening_steps: usize,
+    /// What it is.
+    #[serde(flatten)]
+    pub kind: SurfaceKind,
+}
+
+/// What a guiding surface is.
+#[derive(Clone, Debug, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub enum SurfaceKind {
+    /// A mesh with a chart.
+    Chart {
+        triangles: usize,
+        /// Mean and largest change of a triangle angle.
+        angle_distortion: [f64; 2],
+        /// Least and greatest length on the surface of a unit length in the plane.
+        scale: [f64; 2],
+        /// Steps of the flattening.
+        flattening_steps: usize,
+    },
+    /// The polygons of a mesh.
+    Mesh { polygons: usize },
+    /// A polyhedron on a sphere.
+    Sphere { radius: f64, polygons: usize },
 }
 
 /// The tile edge.
@@ -81,15 +96,21 @@ pub struct DroppedUnit {
 }
 
 /// The surface's part of the report.
-pub fn surface(mesh: &Mesh, notes: &[String], distortion: &Distortion) -> Surface {
-    Surface {
-        triangles: mesh.triangles.len(),
-        size: mesh.bounds().map_or([0.0; 3], |[lo, hi]| (hi - lo).into()),
-        mended: notes.to_vec(),
-        angle_distortion: [distortion.mean_angle, distortion.max_angle].map(f64::to_degrees),
-        scale: distortion.scale,
-        flattening_steps: distortion.steps,
-    }
+pub fn surface(guide: &Guide, notes: &[String]) -> Surface {
+    let kind = match guide {
+        Guide::Chart { mesh, distortion: d } => SurfaceKind::Chart {
+            triangles: mesh.triangles.len(),
+            angle_distortion: [d.mean_angle, d.max_angle].map(f64::to_degrees),
+            scale: d.scale,
+            flattening_steps: d.steps,
+        },
+        Guide::Mesh(mesh) => SurfaceKind::Mesh { polygons: mesh.faces.len() },
+        Guide::Sphere { faces, radius, .. } => {
+            SurfaceKind::Sphere { radius: *radius, polygons: *faces }
+        }
+    };
+    let size = guide.bounds().map_or([0.0; 3], |[lo, hi]| (hi - lo).into());
+    Surface { size, mended: notes.to_vec(), kind }
 }
 
 /// The fit's part of the report.

@@ -1,0 +1,117 @@
+//! design.toml: every setting as it was used.
+
+use super::{Design, Tiles};
+use crate::frame::fit::Fit;
+use serde::Serialize;
+use std::fmt::Write as _;
+
+impl Design {
+    /// The design as a file that repeats the run: every setting as it was used, with
+    /// what was found for those left open in comments.
+    pub fn to_toml(&self, fit: &Fit, found_stock: &[f64]) -> String {
+        let mut file = TomlFile::default();
+        file.text.push_str(
+            "# Every setting as it was used; `rodwright build --design` repeats the run.\n",
+        );
+        self.surface_settings(&mut file);
+        self.tile_settings(&mut file, fit);
+        file.set("overhang", mm(self.overhang));
+        file.set("layer", choice(self.layer));
+        if self.stock.is_empty() {
+            let lengths: Vec<String> = found_stock.iter().map(|&l| mm(l)).collect();
+            file.note(&format!("stock was chosen to hold the longest rod: {}", lengths.join(", ")));
+        } else {
+            file.set("stock", self.stock.iter().map(|&l| mm(l)).collect::<Vec<_>>());
+        }
+        file.set("kerf", mm(self.kerf));
+        file.set("round", mm(self.round));
+        file.set("paper", self.paper.to_string());
+        file.set("units", choice(self.units));
+        if let Some(only) = &self.given.only {
+            file.set("only", choice(only));
+        }
+        file.text
+    }
+
+    fn surface_settings(&self, file: &mut TomlFile) {
+        file.set("surface", self.surface.to_string_lossy().into_owned());
+        if !matches!(self.tiles, Tiles::Sphere(_)) {
+            match self.up {
+                Some(up) => file.set("up", up.to_string()),
+                None => file.note("up is z (glTF: y)"),
+            }
+        }
+        if let Some(cut) = self.cut {
+            file.set("cut", cut.to_string());
+        }
+        if let Some(component) = self.component {
+            file.set("component", component.to_string());
+        }
+        match self.span {
+            Some(span) => file.set("span", mm(span)),
+            None => file.note("span is the file's own size, 1 unit = 1 mm (glTF: 1 m)"),
+        }
+    }
+
+    fn tile_settings(&self, file: &mut TomlFile, fit: &Fit) {
+        file.set("rod", mm(self.rod));
+        let rotate = self.given.rotate.map_or_else(|| "0deg".into(), |a| a.to_string());
+        match &self.tiles {
+            Tiles::Pattern(pattern) => {
+                file.set("pattern", pattern.name);
+                match self.unit {
+                    Some(unit) => file.set("unit", mm(unit)),
+                    None => {
+                        file.note(&format!(
+                            "unit was fitted to rod and surface: {:.2}mm",
+                            fit.edge
+                        ));
+                    }
+                }
+                let usual = format!("{}deg", pattern.turn);
+                file.set("turn", self.given.turn.map_or(usual, |t| t.to_string()));
+                file.set("origin", self.origin.map(mm).to_vec());
+                file.set("rotate", rotate);
+                return;
+            }
+            Tiles::Mesh => file.set("pattern", "mesh"),
+            Tiles::Sphere(sphere) => {
+                file.set("warp", sphere.warp);
+                file.set("rotate", rotate);
+            }
+        }
+        match self.given.turn {
+            Some(turn) => file.set("turn", turn.to_string()),
+            None => file.note(&format!(
+                "turn was fitted to rod and surface: {:.2}deg",
+                fit.turn.to_degrees()
+            )),
+        }
+    }
+}
+
+/// A TOML file with remarks, line by line.
+#[derive(Default)]
+struct TomlFile {
+    text: String,
+}
+
+impl TomlFile {
+    fn set(&mut self, key: &str, value: impl Into<toml::Value>) {
+        let value: toml::Value = value.into();
+        writeln!(self.text, "{key} = {value}").expect("writing to a string cannot fail");
+    }
+
+    fn note(&mut self, text: &str) {
+        writeln!(self.text, "# {text}").expect("writing to a string cannot fail");
+    }
+}
+
+/// A choice as the file names it.
+fn choice(value: impl Serialize) -> toml::Value {
+    toml::Value::try_from(value).expect("choices are written by their names: TOML strings")
+}
+
+fn mm(length: f64) -> String {
+    format!("{length}mm")
+}

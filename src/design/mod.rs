@@ -1,0 +1,188 @@
+//! What the user asks for: every setting, its default, and its bounds.
+//!
+//! The same [`Settings`] are read from design.toml and from the command line, where
+//! nothing need be given. [`Settings::resolve`] fills in the defaults and checks
+//! the whole, which gives a [`Design`].
+
+mod file;
+mod resolve;
+mod settings;
+
+pub use settings::Settings;
+
+use crate::frame::layer::Layering;
+use crate::pattern::Pattern;
+use crate::sheets::{Paper, PaperUnits};
+use crate::surface::component::Component;
+use crate::surface::cut::CutPlane;
+use crate::surface::up::Up;
+use crate::tiling::conway::Notation;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// A part of the output folder.
+#[derive(
+    Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize, clap::ValueEnum,
+)]
+#[serde(rename_all = "kebab-case")]
+pub enum Part {
+    /// structure.json, report.json and design.toml, which every folder has.
+    Structure,
+    /// rods.csv, contacts.csv, supports.csv
+    Csv,
+    /// cutlist.json, cutlist.csv
+    Cutlist,
+    /// model.glb
+    Glb,
+    /// sheets.pdf, sheets/*.svg
+    Sheets,
+    /// support-map.svg, support-map.pdf
+    SupportMap,
+    /// pictures/*.svg: the frame from the side and from above.
+    Pictures,
+}
+
+const ALL_PARTS: [Part; 7] = [
+    Part::Structure,
+    Part::Csv,
+    Part::Cutlist,
+    Part::Glb,
+    Part::Sheets,
+    Part::SupportMap,
+    Part::Pictures,
+];
+
+/// What the units of a frame are made on.
+#[derive(Clone, Debug)]
+pub enum Tiles {
+    /// A pattern of the plane, on the chart of a surface file.
+    Pattern(&'static Pattern),
+    /// The polygons of a surface file.
+    Mesh,
+    /// A polyhedron on a sphere.
+    Sphere(Sphere),
+}
+
+/// A sphere tiled by a polyhedron.
+#[derive(Clone, Debug)]
+pub struct Sphere {
+    /// The polyhedron.
+    pub notation: Notation,
+    /// How much larger its units are on top.
+    pub warp: f64,
+    /// Radius, mm.
+    pub radius: f64,
+}
+
+impl Tiles {
+    /// The name for titles and reports.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Pattern(pattern) => pattern.name.into(),
+            Self::Mesh => "mesh".into(),
+            Self::Sphere(sphere) => sphere.notation.to_string(),
+        }
+    }
+
+    /// What it looks like, in a few words.
+    pub fn summary(&self) -> &'static str {
+        match self {
+            Self::Pattern(pattern) => pattern.summary,
+            Self::Mesh => "the polygons of the surface itself",
+            Self::Sphere(_) => "a polyhedron on a sphere, along great circles",
+        }
+    }
+}
+
+/// How the surface of a design begins that is no file.
+const SPHERE: &str = "sphere:";
+
+/// A complete, checked design. Lengths in mm, angles in radians.
+#[derive(Clone, Debug)]
+pub struct Design {
+    /// The surface as given: a file, or `sphere:` and a notation.
+    pub surface: PathBuf,
+    /// The surface file, where it was found.
+    pub surface_file: PathBuf,
+    /// What the units are made on.
+    pub tiles: Tiles,
+    /// Only what lies above this plane.
+    pub cut: Option<CutPlane>,
+    /// Only this piece.
+    pub component: Option<Component>,
+    /// Rod diameter.
+    pub rod: f64,
+    /// Longest horizontal side, if the model is to be scaled.
+    pub span: Option<f64>,
+    /// Tile edge, if it is not to be fitted.
+    pub unit: Option<f64>,
+    /// Turn of the rods, if it is not to be fitted.
+    pub turn: Option<f64>,
+    /// Start of the pattern in the plane.
+    pub origin: [f64; 2],
+    /// Turn of the pattern.
+    pub rotate: f64,
+    /// Rod beyond the last contact.
+    pub overhang: f64,
+    /// Who goes over.
+    pub layer: Layering,
+    /// The file's up axis, if given.
+    pub up: Option<Up>,
+    /// Stock lengths; empty to choose one.
+    pub stock: Vec<f64>,
+    /// Saw cut.
+    pub kerf: f64,
+    /// Step of cut lengths.
+    pub round: f64,
+    /// Paper size.
+    pub paper: Paper,
+    /// Unit on paper.
+    pub units: PaperUnits,
+    /// What to write.
+    pub only: Vec<Part>,
+    given: Settings,
+}
+
+/// What is wrong with a design.
+#[derive(Error, Debug)]
+pub enum DesignError {
+    /// The design file cannot be read.
+    #[error("cannot read {file}: {source}. Check the name of the file")]
+    Unreadable { file: PathBuf, source: std::io::Error },
+    /// The design file is not valid; the message names line, key and known keys.
+    #[error("{file}: {source}")]
+    Invalid { file: PathBuf, source: Box<toml::de::Error> },
+    /// No surface anywhere.
+    #[error(
+        "no surface given. Name a file, as in `rodwright build samples/igloo.obj`, or set `surface` in the design file"
+    )]
+    NoSurface,
+    /// A setting that would change nothing.
+    #[error("{key} does nothing here: {why}. Leave it out")]
+    Idle { key: &'static str, why: &'static str },
+    /// A setting is outside its bounds.
+    #[error("{key} = {value}: {problem}")]
+    Setting { key: &'static str, value: String, problem: String },
+}
+
+impl Design {
+    /// The name of the model: the surface's file name without its ending, or the
+    /// notation of a sphere with its slash as a dash.
+    pub fn name(&self) -> String {
+        if let Tiles::Sphere(sphere) = &self.tiles {
+            return format!("sphere-{}", sphere.notation.to_string().replace('/', "-"));
+        }
+        self.surface.file_stem().map_or_else(|| "model".into(), |s| s.to_string_lossy().into())
+    }
+
+    /// Where the folder goes when the user does not say: beside where we are.
+    pub fn default_folder(&self) -> PathBuf {
+        PathBuf::from(format!("{}-frame", self.name()))
+    }
+
+    /// Whether a part is to be written.
+    pub fn wants(&self, part: Part) -> bool {
+        self.only.contains(&part)
+    }
+}

@@ -1,0 +1,169 @@
+//! Fills in the defaults and checks every setting.
+
+use super::{ALL_PARTS, Design, DesignError, SPHERE, Settings, Sphere, Tiles};
+use crate::pattern::{LIBRARY, Pattern};
+use crate::tiling::conway::Notation;
+use crate::units::{Angle, Length};
+use std::path::Path;
+
+fn setting(key: &'static str, value: impl ToString, problem: impl Into<String>) -> DesignError {
+    DesignError::Setting { key, value: value.to_string(), problem: problem.into() }
+}
+
+impl Settings {
+    /// Fills in the defaults and checks every setting. Relative surface paths are
+    /// looked up in `folder` (that of the design file) first, then where we are.
+    ///
+    /// # Errors
+    /// [`DesignError`] with the setting, its value, and what would be allowed.
+    pub fn resolve(self, folder: Option<&Path>) -> Result<Design, DesignError> {
+        let surface = self.surface.clone().ok_or(DesignError::NoSurface)?;
+        let beside = folder.map(|f| f.join(&surface)).filter(|f| f.exists());
+        let rod = positive("rod", self.rod)?.unwrap_or(DEFAULT_ROD);
+        let tiles = self.tiles(&surface.to_string_lossy())?;
+        self.check_fit_for(&tiles)?;
+        Ok(Design {
+            surface_file: beside.unwrap_or_else(|| surface.clone()),
+            surface,
+            cut: self.cut,
+            component: self.component,
+            rod,
+            span: match &tiles {
+                Tiles::Sphere(sphere) => Some(2.0 * sphere.radius),
+                _ => positive("span", self.span)?,
+            },
+            unit: positive("unit", self.unit)?,
+            turn: turn(&tiles, self.turn)?,
+            tiles,
+            origin: origin(self.origin.as_deref())?,
+            rotate: self.rotate.map_or(0.0, Angle::radians),
+            overhang: not_negative("overhang", self.overhang)?.unwrap_or(2.0 * rod),
+            layer: self.layer.unwrap_or_default(),
+            up: self.up,
+            stock: stock(self.stock.as_deref())?,
+            kerf: not_negative("kerf", self.kerf)?.unwrap_or(DEFAULT_KERF),
+            round: not_negative("round", self.round)?.unwrap_or(DEFAULT_ROUND),
+            paper: self.paper.unwrap_or_default(),
+            units: self.units.unwrap_or_default(),
+            only: self.only.clone().unwrap_or_else(|| ALL_PARTS.to_vec()),
+            given: self,
+        })
+    }
+
+    /// What the units are made on, by the surface and the pattern asked for.
+    fn tiles(&self, surface: &str) -> Result<Tiles, DesignError> {
+        if let Some(text) = surface.strip_prefix(SPHERE) {
+            let notation = text.parse::<Notation>();
+            let notation = notation.map_err(|e| setting("surface", surface, e.to_string()))?;
+            let warp = self.warp.unwrap_or(1.0);
+            if !(LEAST_WARP..=1.0 / LEAST_WARP).contains(&warp) {
+                let problem = format!("a warp is from {LEAST_WARP} to {}", 1.0 / LEAST_WARP);
+                return Err(setting("warp", warp, problem));
+            }
+            let radius = positive("span", self.span)?.unwrap_or(DEFAULT_SPHERE) / 2.0;
+            return Ok(Tiles::Sphere(Sphere { notation, warp, radius }));
+        }
+        Ok(match self.pattern.as_deref() {
+            Some("mesh") => Tiles::Mesh,
+            name => Tiles::Pattern(pattern(name)?),
+        })
+    }
+
+    /// Refuses settings that say nothing about what the units are made on.
+    fn check_fit_for(&self, tiles: &Tiles) -> Result<(), DesignError> {
+        let unit = self.unit.is_some().then_some("unit");
+        let origin = self.origin.is_some().then_some("origin");
+        let rotate = self.rotate.is_some().then_some("rotate");
+        let pattern = self.pattern.is_some().then_some("pattern");
+        let up = self.up.is_some().then_some("up");
+        let component = self.component.is_some().then_some("component");
+        let (idle, why) = match tiles {
+            Tiles::Pattern(_) => (
+                vec![self.warp.is_some().then_some("warp")],
+                "it is for spheres, as in sphere:aI/2",
+            ),
+            Tiles::Mesh => (
+                vec![self.warp.is_some().then_some("warp"), unit, origin, rotate],
+                "the polygons of the mesh are the units; --span sets their size",
+            ),
+            Tiles::Sphere(_) => (
+                vec![pattern, unit, origin, up, component],
+                "the notation of the sphere says where its units are; --span sets their size",
+            ),
+        };
+        match idle.into_iter().flatten().next() {
+            Some(key) => Err(DesignError::Idle { key, why }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Diameter of a sphere when none is given, mm: it fits a table.
+const DEFAULT_SPHERE: f64 = 600.0;
+/// The least warp; its inverse is the greatest. Beyond, units on one side are ten times
+/// those on the other.
+const LEAST_WARP: f64 = 0.3125;
+
+/// Diameter of the sticks when none is given, mm: dowel from any craft shop.
+const DEFAULT_ROD: f64 = 3.0;
+/// Width of the cut of a fine saw, mm.
+const DEFAULT_KERF: f64 = 1.0;
+/// Step of cut lengths, mm: what can be marked and sawn by hand.
+const DEFAULT_ROUND: f64 = 0.5;
+
+fn positive(key: &'static str, length: Option<Length>) -> Result<Option<f64>, DesignError> {
+    match length {
+        Some(l) if l.mm() <= 0.0 => Err(setting(key, l, "must be more than nothing")),
+        other => Ok(other.map(Length::mm)),
+    }
+}
+
+fn not_negative(key: &'static str, length: Option<Length>) -> Result<Option<f64>, DesignError> {
+    match length {
+        Some(l) if l.mm() < 0.0 => Err(setting(key, l, "must not be negative")),
+        other => Ok(other.map(Length::mm)),
+    }
+}
+
+fn pattern(name: Option<&str>) -> Result<&'static Pattern, DesignError> {
+    let name = name.unwrap_or(LIBRARY[0].name);
+    Pattern::named(name).ok_or_else(|| {
+        let known: Vec<&str> = LIBRARY.iter().map(|p| p.name).collect();
+        setting(
+            "pattern",
+            name,
+            format!("no such pattern; there are {} and mesh", known.join(", ")),
+        )
+    })
+}
+
+/// The turn given, or that of the pattern. On other tiles the surface has a say, and
+/// bounds are checked there.
+fn turn(tiles: &Tiles, angle: Option<Angle>) -> Result<Option<f64>, DesignError> {
+    let Tiles::Pattern(pattern) = tiles else { return Ok(angle.map(Angle::radians)) };
+    let Some(angle) = angle else { return Ok(Some(pattern.turn.to_radians())) };
+    let [least, most] = pattern.turns;
+    if (least..=most).contains(&angle.degrees().abs()) {
+        return Ok(Some(angle.radians()));
+    }
+    let problem = format!(
+        "the pattern {} holds together between {least} and {most} degrees, either way round",
+        pattern.name
+    );
+    Err(setting("turn", angle, problem))
+}
+
+fn origin(lengths: Option<&[Length]>) -> Result<[f64; 2], DesignError> {
+    match lengths {
+        None => Ok([0.0; 2]),
+        Some([u, v]) => Ok([u.mm(), v.mm()]),
+        Some(other) => {
+            Err(setting("origin", format!("{} lengths", other.len()), "takes two, as in 10mm,-5mm"))
+        }
+    }
+}
+
+fn stock(lengths: Option<&[Length]>) -> Result<Vec<f64>, DesignError> {
+    let lengths = lengths.unwrap_or_default();
+    lengths.iter().map(|&l| positive("stock", Some(l)).map(|l| l.unwrap_or_default())).collect()
+}

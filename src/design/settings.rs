@@ -1,0 +1,144 @@
+//! The settings as given, on the command line or in design.toml.
+
+use super::{DesignError, Part};
+use crate::frame::layer::Layering;
+use crate::sheets::{Paper, PaperUnits};
+use crate::surface::component::Component;
+use crate::surface::cut::CutPlane;
+use crate::surface::up::Up;
+use crate::units::{Angle, Length};
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+
+/// The settings as given: none is required, none has its default yet.
+#[derive(clap::Args, Clone, PartialEq, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Settings {
+    /// The surface: an OBJ, STL, PLY, OFF, glTF or GLB file, or a sphere such as sphere:aI/2
+    #[arg(value_name = "SURFACE")]
+    pub surface: Option<PathBuf>,
+
+    /// Rod diameter [default: 3mm]
+    #[arg(long, value_name = "LENGTH")]
+    pub rod: Option<Length>,
+
+    /// Longest horizontal side of the model [default: the file's own size, mm]
+    #[arg(long, value_name = "LENGTH")]
+    pub span: Option<Length>,
+
+    /// Pattern, by vertex configuration, or mesh for the surface's own polygons [default: 4.4.4.4]
+    #[arg(long, value_name = "NAME")]
+    pub pattern: Option<String>,
+
+    /// Keep what lies above this height, as z=120mm or z=40% [default: the whole surface]
+    #[arg(long, value_name = "z=HEIGHT", allow_hyphen_values = true)]
+    pub cut: Option<CutPlane>,
+
+    /// Keep one piece: largest, or its number in the table of `rodwright inspect`
+    #[arg(long, value_name = "PIECE")]
+    pub component: Option<Component>,
+
+    /// Sphere: units on top larger by this factor, those at the bottom smaller [default: 1]
+    #[arg(long, value_name = "FACTOR")]
+    pub warp: Option<f64>,
+
+    /// Mean tile edge [default: fitted to rod and surface]
+    #[arg(long, value_name = "LENGTH")]
+    pub unit: Option<Length>,
+
+    /// Turn of the rods against the lines between unit centres [default: by pattern; fitted
+    /// on a sphere and with --pattern mesh]
+    #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
+    pub turn: Option<Angle>,
+
+    /// Where the pattern starts, from the middle of the flattened surface [default: 0,0]
+    #[arg(
+        long,
+        value_name = "U,V",
+        value_delimiter = ',',
+        num_args = 1,
+        allow_hyphen_values = true
+    )]
+    pub origin: Option<Vec<Length>>,
+
+    /// Turn of the whole pattern on the surface [default: 0deg]
+    #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
+    pub rotate: Option<Angle>,
+
+    /// Rod left beyond its last contact [default: two rod diameters]
+    #[arg(long, value_name = "LENGTH")]
+    pub overhang: Option<Length>,
+
+    /// Who goes over: by the surface, or each rod on top of the next [default: follow]
+    #[arg(long, value_enum)]
+    pub layer: Option<Layering>,
+
+    /// The axis of the file that points up [default: z; y for glTF]
+    #[arg(long, value_name = "AXIS")]
+    pub up: Option<Up>,
+
+    /// Lengths in which the sticks are sold [default: 1000mm, or enough whole metres]
+    #[arg(long, value_name = "LENGTH", value_delimiter = ',', num_args = 1)]
+    pub stock: Option<Vec<Length>>,
+
+    /// Width of a saw cut [default: 1mm]
+    #[arg(long, value_name = "LENGTH")]
+    pub kerf: Option<Length>,
+
+    /// Cut lengths are multiples of this; 0 for exact ones [default: 0.5mm]
+    #[arg(long, value_name = "LENGTH")]
+    pub round: Option<Length>,
+
+    /// Paper: a4, a3, letter, tabloid, or width x height such as 300x200mm [default: a4]
+    #[arg(long, value_name = "PAPER")]
+    pub paper: Option<Paper>,
+
+    /// Unit of lengths on paper [default: mm]
+    #[arg(long, value_enum)]
+    pub units: Option<PaperUnits>,
+
+    /// Write only these besides structure and report [default: all]
+    #[arg(long, value_name = "PARTS", value_delimiter = ',', num_args = 1, value_enum)]
+    pub only: Option<Vec<Part>>,
+}
+
+impl Settings {
+    /// Reads a design file.
+    ///
+    /// # Errors
+    /// [`DesignError`] when it cannot be read, is not TOML, or holds an unknown key.
+    pub fn read(file: &Path) -> Result<Self, DesignError> {
+        let unreadable = |source| DesignError::Unreadable { file: file.to_path_buf(), source };
+        let text = std::fs::read_to_string(file).map_err(unreadable)?;
+        toml::from_str(&text).map_err(|source| DesignError::Invalid {
+            file: file.to_path_buf(),
+            source: Box::new(source),
+        })
+    }
+
+    /// These settings, with those of `other` where these say nothing.
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            surface: self.surface.or(other.surface),
+            rod: self.rod.or(other.rod),
+            span: self.span.or(other.span),
+            pattern: self.pattern.or(other.pattern),
+            cut: self.cut.or(other.cut),
+            component: self.component.or(other.component),
+            warp: self.warp.or(other.warp),
+            unit: self.unit.or(other.unit),
+            turn: self.turn.or(other.turn),
+            origin: self.origin.or(other.origin),
+            rotate: self.rotate.or(other.rotate),
+            overhang: self.overhang.or(other.overhang),
+            layer: self.layer.or(other.layer),
+            up: self.up.or(other.up),
+            stock: self.stock.or(other.stock),
+            kerf: self.kerf.or(other.kerf),
+            round: self.round.or(other.round),
+            paper: self.paper.or(other.paper),
+            units: self.units.or(other.units),
+            only: self.only.or(other.only),
+        }
+    }
+}
