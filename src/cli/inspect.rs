@@ -1,21 +1,19 @@
-//! `rodwright inspect`: everything about one rod, contact or unit.
+//! `rodwright inspect`: everything about one rod, contact or unit of a structure, or
+//! about a surface before a frame is made on it.
+
+mod structure;
+mod surface;
 
 use super::Failure;
+use super::input::{Input, Preparation};
 use super::terminal::{Terminal, print};
-use crate::frame::{End, Frame};
-use crate::ids::{ContactId, Id, IdVec, RodId, UnitId};
-use crate::shop::feet::feet;
-use crate::shop::lengths::classes;
-use crate::shop::marks::marks;
-use crate::surface::Point3;
-use crate::write::structure::read_structure;
 use std::fmt::{Display, Write as _};
 use std::path::PathBuf;
 
 #[derive(clap::Args)]
 pub struct Args {
-    /// A folder written by rodwright, or its structure.json
-    folder: PathBuf,
+    /// A folder written by rodwright, its structure.json, or a surface file
+    path: PathBuf,
 
     /// Tell about this rod, e.g. R012
     #[arg(long, value_name = "ID", group = "what")]
@@ -28,27 +26,30 @@ pub struct Args {
     /// Tell about this unit, e.g. U007
     #[arg(long, value_name = "ID", group = "what")]
     unit: Option<String>,
+
+    #[command(flatten)]
+    preparation: Preparation,
 }
 
-pub fn run(args: &Args, terminal: &Terminal) -> Result<(), Failure> {
-    let file =
-        if args.folder.is_dir() { args.folder.join("structure.json") } else { args.folder.clone() };
-    let structure = read_structure(&file).map_err(|e| {
-        let hint = e.hint().map(|h| format!(". Hint: {h}")).unwrap_or_default();
-        Failure::file(format!("{e}{hint}"))
-    })?;
-    let frame = structure.to_frame().map_err(Failure::input)?;
-    let mut page = Page { text: String::new(), terminal };
-    if let Some(id) = &args.rod {
-        rod(&mut page, &frame, find(&frame.rods, id, "rod")?);
-    } else if let Some(id) = &args.contact {
-        contact(&mut page, &frame, find(&frame.contacts, id, "contact")?);
-    } else if let Some(id) = &args.unit {
-        unit(&mut page, &frame, find(&frame.units, id, "unit")?);
-    } else {
-        overview(&mut page, &frame);
-    }
-    print(page.text.as_bytes())
+pub fn run(args: Args, terminal: &Terminal) -> Result<(), Failure> {
+    let text = match Input::read(&args.path)? {
+        Input::Structure(structure) => {
+            args.preparation.refuse(&args.path)?;
+            structure::page(&args, &structure, terminal)?
+        }
+        Input::Surface(reading) => {
+            let what = [("--rod", &args.rod), ("--contact", &args.contact), ("--unit", &args.unit)];
+            if let Some((option, _)) = what.iter().find(|w| w.1.is_some()) {
+                return Err(Failure::usage(format!(
+                    "{option} tells about a finished structure, but {} is a surface: name a \
+                     folder written by `rodwright build`",
+                    args.path.display()
+                )));
+            }
+            surface::page(&args, *reading, terminal)?
+        }
+    };
+    print(text.as_bytes())
 }
 
 /// Lines of text under a heading.
@@ -69,108 +70,5 @@ impl Page<'_> {
 
     fn line(&mut self, line: impl Display) {
         writeln!(self.text, "  {line}").expect("writing to a string cannot fail");
-    }
-}
-
-/// The element of this id; upper and lower case are the same, and zeros in front
-/// may be left out.
-fn find<I: Id + Display, T>(items: &IdVec<I, T>, name: &str, kind: &str) -> Result<I, Failure> {
-    let missing = || {
-        let range = match items.len() {
-            0 => "there is none".to_string(),
-            n => format!("there are {} to {}", I::new(0), I::new(n - 1)),
-        };
-        Failure::input(format!("no {kind} is called {name}: {range}"))
-    };
-    let prefix = &I::new(0).to_string()[..1];
-    let upper = name.to_uppercase();
-    let digits = upper.strip_prefix(prefix).unwrap_or(&upper);
-    let number: usize = digits.parse().map_err(|_| missing())?;
-    if (1..=items.len()).contains(&number) { Ok(I::new(number - 1)) } else { Err(missing()) }
-}
-
-fn place(p: Point3) -> String {
-    format!("x {:.1}  y {:.1}  z {:.1} mm", p.x, p.y, p.z)
-}
-
-fn list(ids: impl IntoIterator<Item = impl Display>) -> String {
-    ids.into_iter().map(|id| id.to_string()).collect::<Vec<_>>().join(" ")
-}
-
-fn overview(page: &mut Page, frame: &Frame) {
-    page.head("Structure");
-    page.row("rods", format!("{} of {} mm diameter", frame.rods.len(), frame.diameter));
-    page.row("contacts", frame.contacts.len());
-    page.row("units", frame.units.len());
-    page.row("on the ground", list(frame.supports.iter().map(|s| s.rod)));
-    let [lo, hi] = frame.bounds();
-    let size = hi - lo;
-    page.row("size", format!("{:.1} × {:.1} × {:.1} mm", size.x, size.y, size.z));
-    page.head("Lengths");
-    for class in &classes(frame) {
-        page.row(
-            &class.name,
-            format!("{:.1} mm  {} ×  {}", class.length, class.rods.len(), list(&class.rods)),
-        );
-    }
-}
-
-fn rod(page: &mut Page, frame: &Frame, id: RodId) {
-    let rod = &frame.rods[id];
-    let classes = classes(frame);
-    page.head(&format!("Rod {id}"));
-    page.row("cut length", format!("{:.1} mm, class {}", rod.axis.length(), classes.of(id).name));
-    page.row("end A", place(rod.axis.a));
-    page.row("end B", place(rod.axis.b));
-    page.row("units", list(&rod.units));
-    for foot in feet(frame).iter().filter(|f| f.rod == id) {
-        let end = if foot.end == End::A { "A" } else { "B" };
-        page.row(
-            "stands",
-            format!(
-                "on end {end}, {:.1}° above the ground, heading {:.1}°; saw {:.1}° off square",
-                foot.elevation.to_degrees(),
-                foot.azimuth.to_degrees(),
-                foot.bevel.to_degrees()
-            ),
-        );
-    }
-    page.head("Marks, measured from end A");
-    for m in marks(frame, id) {
-        let side = if m.over { "over " } else { "under" };
-        page.line(format!(
-            "{} {:8.1} mm  {side} {} @ {:.1} mm  {:5.1}°  clock {:5.1}°  {}",
-            m.letter,
-            m.at,
-            m.partner,
-            m.at_partner,
-            m.angle.to_degrees(),
-            m.clock.to_degrees(),
-            m.contact
-        ));
-    }
-}
-
-fn contact(page: &mut Page, frame: &Frame, id: ContactId) {
-    let c = &frame.contacts[id];
-    page.head(&format!("Contact {id}"));
-    page.row("over", format!("{} @ {:.1} mm from its end A", c.over, c.at_over));
-    page.row("under", format!("{} @ {:.1} mm from its end A", c.under, c.at_under));
-    page.row("angle", format!("{:.1}°", c.angle.to_degrees()));
-    page.row("axes apart", format!("{:.6} mm", c.gap));
-    page.row("place", place(frame.contact_middle(id)));
-    page.row("unit", c.unit);
-}
-
-fn unit(page: &mut Page, frame: &Frame, id: UnitId) {
-    let unit = &frame.units[id];
-    page.head(&format!("Unit {id}"));
-    page.row("rods", format!("{}: {}", unit.rods.len(), list(&unit.rods)));
-    page.row("runs", unit.chirality.code());
-    page.row("middle", place(unit.center.position));
-    page.head("Contacts, round the unit");
-    for &contact in &unit.contacts {
-        let c = &frame.contacts[contact];
-        page.line(format!("{contact}  {} over {}  {:.1}°", c.over, c.under, c.angle.to_degrees()));
     }
 }

@@ -2,6 +2,8 @@
 
 mod build;
 mod complete;
+mod convert;
+mod input;
 mod inspect;
 mod progress;
 mod sample;
@@ -30,8 +32,10 @@ struct Cli {
 enum Command {
     /// Make a frame on a surface and write everything needed to build it
     Build(Box<build::Args>),
-    /// Tell everything about a rod, contact or unit of a finished folder
+    /// Tell everything about a rod, contact or unit of a finished folder, or about a surface
     Inspect(inspect::Args),
+    /// Write a surface or a finished structure in another format
+    Convert(convert::Args),
     /// Write a sample surface
     Sample(sample::Args),
     /// Print a script that completes commands in a shell
@@ -44,6 +48,8 @@ enum Command {
 enum Failure {
     /// The input or design cannot give a result: exit status 1.
     Input(String),
+    /// Options that do not go together: exit status 2.
+    Usage(String),
     /// A file or folder cannot be read or written: exit status 3.
     File(String),
 }
@@ -51,6 +57,10 @@ enum Failure {
 impl Failure {
     fn input(message: impl ToString) -> Self {
         Self::Input(message.to_string())
+    }
+
+    fn usage(message: impl ToString) -> Self {
+        Self::Usage(message.to_string())
     }
 
     fn file(message: impl ToString) -> Self {
@@ -67,7 +77,8 @@ pub fn run() -> ExitCode {
     let terminal = Terminal::new(cli.color);
     let done = match cli.command {
         Command::Build(args) => build::run(*args, &terminal),
-        Command::Inspect(args) => inspect::run(&args, &terminal),
+        Command::Inspect(args) => inspect::run(args, &terminal),
+        Command::Convert(args) => convert::run(&args, &terminal),
         Command::Sample(args) => sample::run(&args),
         Command::Completions(args) => complete::completions(&args, Cli::command()),
         Command::Man => complete::man(Cli::command()),
@@ -75,6 +86,7 @@ pub fn run() -> ExitCode {
     let (message, status) = match done {
         Ok(()) => return ExitCode::SUCCESS,
         Err(Failure::Input(message)) => (message, 1),
+        Err(Failure::Usage(message)) => (message, 2),
         Err(Failure::File(message)) => (message, 3),
     };
     terminal.error(&message);

@@ -2,12 +2,14 @@
 //! and scaled, in this order.
 
 use crate::ids::{IdVec, VertexId};
+use crate::surface::bow_ties::split_bow_ties;
 use crate::surface::component::{Component, ComponentError, keep, keep_polygons};
 use crate::surface::cut::{CutFault, CutPlane, cut, whole_above};
 use crate::surface::faces::bounds;
 use crate::surface::mend::MendError;
 use crate::surface::polygons::{PolygonMesh, mend_polygons};
 use crate::surface::read::{PolygonReading, Reading};
+use crate::surface::shape::counted;
 use crate::surface::up::{Up, file_axes, upright, with_file_axes};
 use crate::surface::{Mesh, Point3};
 
@@ -40,7 +42,16 @@ impl PrepareError {
     }
 }
 
-/// The guiding surface, mm, z up.
+/// The guiding surface, and what was done to it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Prepared {
+    /// The surface, mm, z up, without bow-ties.
+    pub mesh: Mesh,
+    /// What was mended, a sentence each: on reading, and here.
+    pub notes: Vec<String>,
+}
+
+/// Makes the guiding surface of a file's mesh.
 ///
 /// `up` is the axis of the file that points up; without it, the one of the format. The
 /// cut is in figures of the file (mm after a format in metres). The component is counted
@@ -55,12 +66,22 @@ pub fn prepare(
     component: Option<Component>,
     plane: Option<CutPlane>,
     span: Option<f64>,
-) -> Result<Mesh, PrepareError> {
-    let mut mesh = match up {
+) -> Result<Prepared, PrepareError> {
+    let mut notes = reading.notes;
+    let mesh = match up {
         Some(up) if reading.y_up_metres => upright(&with_file_axes(&reading.mesh), up)?,
         Some(up) => upright(&reading.mesh, up)?,
         None => reading.mesh,
     };
+    // No vertices are joined after this.
+    let (mut mesh, divided) = split_bow_ties(mesh);
+    if divided > 0 {
+        notes.push(counted(
+            divided,
+            "vertex divided, where parts touch in a point only",
+            "vertices divided, where parts touch in a point only",
+        ));
+    }
     if let Some(plane) = plane {
         mesh = cut(&mesh, plane)?;
     }
@@ -68,7 +89,7 @@ pub fn prepare(
         mesh = keep(&mesh, component)?;
     }
     scale(&mut mesh.points, span)?;
-    Ok(mesh)
+    Ok(Prepared { mesh, notes })
 }
 
 /// The same for a mesh whose polygons are to stay whole: a cut drops those that reach
@@ -136,26 +157,41 @@ mod tests {
         let plane: CutPlane = "z=110mm".parse().expect("a plane");
         let dome = |span| {
             let largest = Some(Component::Largest);
-            prepare(reading(false), Some(Up::Y), largest, Some(plane), span).expect("a dome")
+            prepare(reading(false), Some(Up::Y), largest, Some(plane), span).expect("a dome").mesh
         };
         let [lo, hi] = dome(None).bounds().expect("not empty");
         assert_eq!(lo.z, 110.0, "cut once upright");
         assert!((hi.z - 220.0).abs() < 1e-9, "the speck is gone");
         let [lo, hi] = dome(Some(1000.0)).bounds().expect("not empty");
-        assert!((hi.x - lo.x).max(hi.y - lo.y) - 1000.0 < 1e-9, "scaled after the cut");
+        let span = (hi.x - lo.x).max(hi.y - lo.y);
+        assert!((span - 1000.0).abs() < 1e-9, "scaled after the cut");
     }
 
     #[test]
     fn components_are_counted_after_the_cut() {
         let plane: CutPlane = "z=225mm".parse().expect("a plane");
         let speck = prepare(reading(true), None, Some(Component::Number(1)), Some(plane), None);
-        assert_eq!(speck.expect("one piece is left").triangles.len(), 1);
+        assert_eq!(speck.expect("one piece is left").mesh.triangles.len(), 1);
     }
 
     #[test]
     fn an_axis_of_a_format_with_y_up_is_that_of_the_file() {
         let plain = prepare(reading(true), None, None, None, None);
         assert_eq!(prepare(reading(true), Some(Up::Y), None, None, None), plain);
+    }
+
+    #[test]
+    fn bow_ties_are_divided_and_told() {
+        let points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]];
+        let mesh = Mesh {
+            points: points.iter().map(|p| Point3::from(p.map(f64::from))).collect(),
+            triangles: [[0, 1, 2], [0, 3, 4]].iter().map(|t| t.map(VertexId::new)).collect(),
+        };
+        let tie = Reading { mesh, notes: vec!["before".into()], y_up_metres: false };
+        let prepared = prepare(tie, None, None, None, None).expect("two pieces");
+        assert_eq!(prepared.mesh.points.len(), 6);
+        let told = "1 vertex divided, where parts touch in a point only";
+        assert_eq!(prepared.notes, ["before", told]);
     }
 
     #[test]

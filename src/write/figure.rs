@@ -18,6 +18,12 @@ pub(super) fn rounded(x: f64, digits: i32) -> f64 {
     (x * scale).round() / scale + 0.0
 }
 
+/// The shortest text that reads back as the same number, never "-0".
+pub(super) fn exact(x: f64) -> String {
+    // Adding zero turns -0 into 0.
+    (x + 0.0).to_string()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -9,6 +9,11 @@
 //! from the origin, so a micrometre at ten metres.
 
 mod cylinder;
+mod parts;
+mod plain;
+
+pub(super) use cylinder::SIDES;
+pub use plain::{mesh_glb, mesh_gltf};
 
 use super::figure::rounded;
 use super::structure::{ContactEntry, ContactKind, EndName, RodEntry, Structure, SupportEntry};
@@ -50,7 +55,7 @@ const BORDER: (&str, [f32; 4]) = ("border rods", [0.25, 0.12, 0.05, 1.0]);
 /// [`GlbError`]; a structure that passes [`Structure::check`] gives none.
 pub fn glb(structure: &Structure) -> Result<Vec<u8>, GlbError> {
     let mut root = Root::default();
-    root.asset.generator = Some(format!("rodwright {}", env!("CARGO_PKG_VERSION")));
+    root.asset.generator = Some(generator());
     let (cylinder, buffer) = push_cylinder(&mut root);
     let notes = notes(structure);
     let rods = rod_nodes(&mut root, structure, &cylinder, &notes)?;
@@ -71,11 +76,20 @@ pub fn glb(structure: &Structure) -> Result<Vec<u8>, GlbError> {
     let scene =
         Scene { nodes: vec![top], extensions: None, extras: None, name: Some("rodwright".into()) };
     root.scene = Some(root.push(scene));
-    let json = gltf_json::serialize::to_vec(&root)?;
+    wrap(&root, buffer)
+}
+
+/// The program's name, as documents carry it.
+fn generator() -> String {
+    format!("rodwright {}", env!("CARGO_PKG_VERSION"))
+}
+
+/// A document and its buffer in one file.
+fn wrap(root: &Root, buffer: Vec<u8>) -> Result<Vec<u8>, GlbError> {
     let glb = Glb {
         // The length is worked out when the file is put together.
         header: Header { magic: *b"glTF", version: 2, length: 0 },
-        json: Cow::Owned(json),
+        json: Cow::Owned(gltf_json::serialize::to_vec(root)?),
         bin: Some(Cow::Owned(buffer)),
     };
     Ok(glb.to_vec()?)

@@ -1,11 +1,17 @@
 //! Writers: one file a format.
 
+pub mod convert;
 pub mod cutlist;
 mod figure;
+pub mod file;
 pub mod folder;
 pub mod glb;
 mod json;
 pub mod obj;
+pub mod off;
+pub mod ply;
 pub mod report;
+pub mod rods;
+pub mod stl;
 pub mod structure;
 pub mod tables;

@@ -2,5 +2,7 @@
 
 mod building;
 mod check;
+mod converting;
+mod inspecting;
 mod refusals;
 mod run;

@@ -1,16 +1,17 @@
 //! The cylinder that all rods share: radius 1, from the origin to (0, 1, 0).
 
-use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
-use gltf_json::buffer::{Stride, Target, View};
+use super::parts::{accessor, buffer, pad, view};
+use gltf_json::accessor::{ComponentType, Type};
+use gltf_json::buffer::Target;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked::Valid;
-use gltf_json::{Accessor, Buffer, Index, Material, Mesh, Root};
+use gltf_json::{Accessor, Index, Material, Mesh, Root};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// Sides of the prism that stands for a round rod: smooth to the eye when a rod
 /// fills the screen's height, 92 triangles.
-const SIDES: u16 = 24;
+pub(in crate::write) const SIDES: u16 = 24;
 
 /// Where the shared geometry lies in the file.
 pub(super) struct Cylinder {
@@ -69,28 +70,10 @@ pub(super) fn push_cylinder(root: &mut Root) -> (Cylinder, Vec<u8>) {
     for i in g.triangles.iter().flatten() {
         bytes.extend(i.to_le_bytes());
     }
-    // A buffer's chunk is a multiple of four bytes long, and says so.
-    bytes.resize(bytes.len().next_multiple_of(4), 0);
-
-    let buffer = root.push(Buffer {
-        byte_length: bytes.len().into(),
-        name: None,
-        uri: None,
-        extensions: None,
-        extras: None,
-    });
-    let view = |offset: usize, length: usize, target: Target| View {
-        buffer,
-        byte_length: length.into(),
-        byte_offset: Some(offset.into()),
-        byte_stride: (target == Target::ArrayBuffer).then_some(Stride(3 * size_of::<f32>())),
-        name: None,
-        target: Some(Valid(target)),
-        extensions: None,
-        extras: None,
-    };
-    let points = root.push(view(0, vertices, Target::ArrayBuffer));
-    let corners = root.push(view(vertices, indices, Target::ElementArrayBuffer));
+    pad(&mut bytes);
+    let buffer = root.push(buffer(bytes.len(), None));
+    let points = root.push(view(buffer, 0, vertices, Target::ArrayBuffer));
+    let corners = root.push(view(buffer, vertices, indices, Target::ElementArrayBuffer));
     let (low, high) = (vec![-1.0, 0.0, -1.0], vec![1.0, 1.0, 1.0]);
     let float = (ComponentType::F32, Type::Vec3);
     let positions = Accessor {
@@ -107,28 +90,6 @@ pub(super) fn push_cylinder(root: &mut Root) -> (Cylinder, Vec<u8>) {
         indices: root.push(indices),
     };
     (cylinder, bytes)
-}
-
-fn accessor(
-    view: Index<View>,
-    offset: usize,
-    count: usize,
-    (component, kind): (ComponentType, Type),
-) -> Accessor {
-    Accessor {
-        buffer_view: Some(view),
-        byte_offset: Some(offset.into()),
-        count: count.into(),
-        component_type: Valid(GenericComponentType(component)),
-        extensions: None,
-        extras: None,
-        type_: Valid(kind),
-        min: None,
-        max: None,
-        name: None,
-        normalized: false,
-        sparse: None,
-    }
 }
 
 impl Cylinder {
