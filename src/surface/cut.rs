@@ -49,8 +49,8 @@ pub enum CutPlaneError {
 pub enum CutFault {
     /// The plane passes over or under the whole surface.
     #[error(
-        "the cut {plane} is at {} mm, but the surface reaches from {} to {} mm", .at, .range[0],
-        .range[1]
+        "the cut {plane} is at {} mm, but the surface reaches from {} to {} mm",
+        figure(*.at), figure(.range[0]), figure(.range[1])
     )]
     Outside {
         /// The plane asked for.
@@ -61,8 +61,10 @@ pub enum CutFault {
         range: [f64; 2],
     },
     /// Nothing is left above the plane, though it touches the surface.
-    #[error("nothing lies above the cut {plane}: the surface reaches from {} to {} mm", .range[0],
-        .range[1])]
+    #[error(
+        "nothing lies above the cut {plane}: the surface reaches from {} to {} mm",
+        figure(.range[0]), figure(.range[1])
+    )]
     NothingAbove {
         /// The plane asked for.
         plane: CutPlane,
@@ -79,12 +81,18 @@ impl CutFault {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Outside { .. } | Self::NothingAbove { .. } => {
-                "cut between these heights, or at a share of them such as --cut z=30%; heights \
-                 are those of the file, before --span"
+                "cut between these heights, which are those before --span, or at a share of \
+                 them such as --cut z=30%"
             }
             Self::Empty => "export the surface again",
         }
     }
+}
+
+/// A height in a message, to the micrometre.
+fn figure(mm: f64) -> f64 {
+    // Adding zero turns -0 into 0.
+    (mm * 1e3).round() / 1e3 + 0.0
 }
 
 /// Vertices nearer to the plane than this share of the bounding box's diagonal are moved

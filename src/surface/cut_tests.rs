@@ -191,6 +191,8 @@ fn a_plane_that_passes_by_is_refused_with_the_heights() {
         assert!(fault.to_string().contains("reaches from -100 to 100 mm"), "{fault}");
     }
     assert_eq!(cut(&Mesh::default(), plane("z=50%")), Err(CutFault::Empty));
+    let fault = CutFault::NothingAbove { plane: at(0.3), range: [-1e-9, 0.1 + 0.2] };
+    assert!(fault.to_string().contains("from 0 to 0.3 mm"), "{fault}");
 }
 
 #[test]

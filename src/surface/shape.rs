@@ -111,13 +111,14 @@ impl Shape {
         (0..self.pieces.len()).rev().max_by(|i, j| area(i).total_cmp(&area(j)))
     }
 
-    /// What would make one piece with a border and no handle of it. Empty if it is one.
+    /// The steps that would make one piece with a border and no handle of it; none if it
+    /// is one.
     ///
     /// Where there are several pieces, what is said of borders and handles is about the
     /// largest, which `--component largest` keeps.
-    pub fn hint(&self) -> String {
+    pub fn advice(&self) -> Vec<String> {
         let Some(largest) = self.largest() else {
-            return "the surface has no triangles: export it again".into();
+            return vec!["export the surface again: it has no triangles".into()];
         };
         let piece = &self.pieces[largest];
         let mut advice = Vec::new();
@@ -128,20 +129,25 @@ impl Shape {
                 largest + 1
             ));
         }
-        if piece.borders.is_empty() && piece.genus == 0 {
-            advice.push(
-                "cut the closed surface open with --cut z=30%, which keeps what lies above 30 % \
-                 of its height, or let its own polygons be the pattern with --pattern mesh"
-                    .into(),
-            );
-        } else if piece.genus > 0 {
+        if piece.genus > 0 {
             advice.push(
                 "keep a part without handles with --cut z=50%, or as high as it takes, or let \
                  its own polygons be the pattern with --pattern mesh"
                     .into(),
             );
+        } else if piece.borders.is_empty() {
+            advice.push(
+                "cut the closed surface open with --cut z=30%, which keeps what lies above 30 % \
+                 of its height, or let its own polygons be the pattern with --pattern mesh"
+                    .into(),
+            );
         }
-        advice.join("; then ")
+        advice
+    }
+
+    /// The [`advice`](Self::advice) in one sentence.
+    pub fn hint(&self) -> String {
+        self.advice().join("; then ")
     }
 }
 

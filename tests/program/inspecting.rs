@@ -46,7 +46,7 @@ fn what_cannot_be_used_is_told_with_the_options_that_help() {
     }
     // Each option is followed, and the other advice stays.
     let (_, page, _) = inspect(dir.path(), &["two.obj", "--component", "largest"]);
-    assert!(page.contains("--cut z=30%") && !page.contains("try to         keep one"), "{page}");
+    assert!(page.contains("--cut z=30%") && !page.contains("to do          keep one"), "{page}");
     let (_, page, _) = inspect(dir.path(), &["two.obj", "--cut", "z=0"]);
     assert!(page.contains("largest (piece 1)") && !page.contains("--cut z=30%"), "{page}");
     let (_, page, _) = inspect(dir.path(), &["two.obj", "--cut", "z=50%", "--component", "1"]);

@@ -52,13 +52,15 @@ fn verdict(page: &mut Page, mesh: &Mesh) {
     match require_chartable(mesh) {
         Ok(_) => page.line("ready: one piece with a border and no handle"),
         // The table stands above already.
-        Err(e @ TopologyError::NotChartable(_)) => {
+        Err(TopologyError::NotChartable(shape)) => {
             page.line("not yet: it takes one piece with a border and no handle");
-            e.hint().split("; then ").for_each(|advice| page.row("try to", advice));
+            for (i, step) in shape.advice().iter().enumerate() {
+                page.row(if i == 0 { "to do" } else { "then" }, step);
+            }
         }
         Err(e) => {
             page.line(format!("not yet: {e}"));
-            page.row("try to", e.hint());
+            page.row("to do", e.hint());
         }
     }
 }
