@@ -12,9 +12,9 @@ use crate::frame::measure::{Measures, measure};
 use crate::pattern::Pattern;
 use crate::shop::cutlist::{CutError, CutPlan, Stock, plan};
 use crate::shop::lengths::cut_lengths;
-use crate::surface::prepare::{PrepareError, prepare, prepare_polygons};
+use crate::surface::prepare::{PrepareError, Prepared, prepare, prepare_polygons};
 use crate::surface::read::{ReadError, read, read_polygons};
-use crate::surface::topology::{TopologyError, require_disk};
+use crate::surface::topology::{TopologyError, require_chartable};
 use crate::tiling::midsphere::{MidsphereError, midsphere};
 use crate::tiling::{Net, Placement};
 use thiserror::Error;
@@ -77,10 +77,10 @@ fn on_chart(
 ) -> Result<Model, BuildError> {
     begin(Step::Read);
     let reading = read(&design.surface_file)?;
-    let notes = reading.notes.clone();
-    let surface = prepare(reading, design.up, design.component, design.cut, design.span)?;
+    let Prepared { mesh: surface, notes } =
+        prepare(reading, design.up, design.component, design.cut, design.span)?;
     begin(Step::Chart);
-    let topology = require_disk(&surface)?;
+    let topology = require_chartable(&surface)?;
     let chart = PlanarChart::new(surface.clone(), &topology)?;
     begin(Step::Fit);
     let turn = design.turn.unwrap_or(pattern.turn.to_radians());
@@ -205,10 +205,10 @@ pub enum BuildError {
     #[error("{0}. {hint}", hint = sentence(.0.hint()))]
     Read(#[from] ReadError),
     /// The surface, on the way to its place.
-    #[error("{0}. {hint}", hint = sentence(&.0.hint()))]
+    #[error("{0}{hint}", hint = advice(&.0.to_string(), &.0.hint()))]
     Prepare(#[from] PrepareError),
     /// The surface's shape.
-    #[error("{0}\n{hint}", hint = sentence(&.0.hint()))]
+    #[error("{0}{hint}", hint = advice(&.0.to_string(), &.0.hint()))]
     Topology(#[from] TopologyError),
     /// The polyhedron.
     #[error(transparent)]
@@ -245,6 +245,12 @@ pub enum BuildError {
     /// The sawing plan.
     #[error("{0}. {hint}", hint = sentence(&.0.hint()))]
     Cut(#[from] CutError),
+}
+
+/// A hint after a message: in its line, or below where the message ends in a table.
+fn advice(message: &str, hint: &str) -> String {
+    let between = if message.contains('\n') { "\n" } else { ". " };
+    format!("{between}{}", sentence(hint))
 }
 
 /// A hint as a sentence of its own.

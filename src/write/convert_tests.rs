@@ -6,7 +6,16 @@ use crate::surface::{Point3, samples};
 use clap::ValueEnum;
 
 /// Formats that are read as well: their files must come back as the same triangles.
-const READ_BACK: [Format; 3] = [Format::Obj, Format::Glb, Format::Gltf];
+const READ_BACK: [Format; 8] = [
+    Format::Obj,
+    Format::Stl,
+    Format::StlAscii,
+    Format::Ply,
+    Format::PlyAscii,
+    Format::Off,
+    Format::Glb,
+    Format::Gltf,
+];
 
 /// Single precision holds 24 binary digits; scaling to metres and back rounds twice more.
 const SINGLE: f64 = 2.0 / (1 << 24) as f64;

@@ -9,7 +9,7 @@ use super::{Canvas, Sizing};
 use crate::chart::SurfacePoint;
 use crate::ids::{IdVec, TileEdgeId, TileId};
 use crate::pattern::Line;
-use crate::surface::{Point3, Vector3};
+use crate::surface::Vector3;
 use crate::tiling::Net;
 use crate::tiling::midsphere::{Midscribed, nearest_to_origin};
 use nalgebra::{Point2, Unit, UnitQuaternion, Vector2};
@@ -108,20 +108,12 @@ impl SphereCanvas {
         Self { turn, ..self.clone() }
     }
 
-    /// Height of the plane on which it stands: the cut, or the lowest point.
+    /// Height of the lowest corner of the tiles that are kept, or of the whole sphere.
     pub fn low(&self) -> f64 {
-        self.cut.unwrap_or(-self.radius)
-    }
-
-    /// Radius of the sphere, mm.
-    pub fn radius(&self) -> f64 {
-        self.radius
-    }
-
-    /// The tiles' corners on the sphere, mm, and their polygons.
-    pub fn polygons(&self) -> (Vec<Point3>, Vec<Vec<usize>>) {
-        let points = self.corners.iter().map(|c| Point3::from(c * self.radius)).collect();
-        (points, self.net.tiles.iter().map(|t| t.corners.clone()).collect())
+        let kept = self.net.tiles.ids().filter(|&t| self.holds(t));
+        let corners = kept.flat_map(|t| &self.net.tiles[t].corners);
+        let low = corners.map(|&v| self.corners[v].z * self.radius).fold(self.radius, f64::min);
+        if self.cut.is_some() { low } else { -self.radius }
     }
 }
 
