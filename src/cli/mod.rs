@@ -4,6 +4,7 @@ mod build;
 mod complete;
 mod convert;
 mod input;
+mod gallery;
 mod inspect;
 mod progress;
 mod sample;
@@ -11,8 +12,9 @@ mod summary;
 mod terminal;
 
 use clap::{ColorChoice, CommandFactory, Parser, Subcommand};
+use std::path::Path;
 use std::process::ExitCode;
-use terminal::Terminal;
+use terminal::{Terminal, print};
 
 /// Reciprocal frames from sticks: from a surface to the papers for building it
 #[derive(Parser)]
@@ -38,6 +40,8 @@ enum Command {
     Convert(convert::Args),
     /// Write a sample surface
     Sample(sample::Args),
+    /// Draw the frames of many designs on one page
+    Gallery(gallery::Args),
     /// Print a script that completes commands in a shell
     Completions(complete::Args),
     /// Print the manual page
@@ -68,6 +72,15 @@ impl Failure {
     }
 }
 
+/// Writes the one result of a command to a file, or to standard output.
+fn write_result(out: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
+    match out {
+        None => print(bytes),
+        Some(file) => std::fs::write(file, bytes)
+            .map_err(|e| Failure::file(format!("cannot write {}: {e}", file.display()))),
+    }
+}
+
 /// Runs the program with the arguments of the process.
 ///
 /// Exit status: 0 done; 1 the input or design cannot give a structure; 2 wrong
@@ -80,6 +93,7 @@ pub fn run() -> ExitCode {
         Command::Inspect(args) => inspect::run(args, &terminal),
         Command::Convert(args) => convert::run(&args, &terminal),
         Command::Sample(args) => sample::run(&args),
+        Command::Gallery(args) => gallery::run(&args, &terminal),
         Command::Completions(args) => complete::completions(&args, Cli::command()),
         Command::Man => complete::man(Cli::command()),
     };

@@ -1,7 +1,7 @@
 //! `rodwright sample`: writes a sample surface.
 
-use super::Failure;
 use super::terminal::print;
+use super::{Failure, write_result};
 use crate::surface::samples::{NAMES, sample};
 use crate::write::obj::write_obj;
 use std::path::PathBuf;
@@ -26,10 +26,5 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let known: Vec<&str> = NAMES.iter().map(|n| n.0).collect();
         Failure::input(format!("no sample is called {name}; there are {}", known.join(", ")))
     })?;
-    let text = write_obj(&mesh);
-    match &args.out {
-        None => print(text.as_bytes()),
-        Some(file) => std::fs::write(file, text)
-            .map_err(|e| Failure::file(format!("cannot write {}: {e}", file.display()))),
-    }
+    write_result(args.out.as_deref(), write_obj(&mesh).as_bytes())
 }

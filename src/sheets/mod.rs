@@ -5,10 +5,12 @@
 //! full size, in one piece and tiled over pages. Nothing here writes files: pages are
 //! rendered by [`drawing::pdf`](crate::drawing::pdf) and [`drawing::svg`](crate::drawing::svg).
 
+mod contact_sheet;
 mod cover;
 mod cut_list;
 mod format;
 mod legend;
+mod line_picture;
 mod page;
 mod paper;
 mod pictures;
@@ -21,6 +23,7 @@ mod view;
 #[cfg(test)]
 mod tests;
 
+pub use contact_sheet::{Exhibit, contact_sheet};
 pub use format::PaperUnits;
 pub use page::Sheet;
 pub use paper::{Paper, PaperError};

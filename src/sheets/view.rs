@@ -61,7 +61,8 @@ impl View {
         [p.coords.dot(&self.right), -p.coords.dot(&self.up)]
     }
 
-    fn depth(&self, p: &Point3) -> f64 {
+    /// How near a point is to the eye, mm; a larger figure is nearer.
+    pub fn depth(&self, p: &Point3) -> f64 {
         p.coords.dot(&self.toward)
     }
 
