@@ -6,6 +6,7 @@ use super::view::View;
 use crate::drawing::font::fit_size;
 use crate::drawing::{Color, Draw, Drawing, DrawingError, Paint, Rect, Weight};
 use crate::frame::Frame;
+use crate::surface::Point3;
 
 /// Width and height of a picture, mm.
 const PICTURE: [f64; 2] = [56.0, 40.0];
@@ -18,6 +19,8 @@ const CAPTION: f64 = 11.0;
 pub struct Exhibit {
     /// The frame.
     pub frame: Frame,
+    /// Closed lines to draw faintly below it, mm: the rim of its surface.
+    pub rims: Vec<Vec<Point3>>,
     /// Its name, in bold.
     pub title: String,
     /// A line more.
@@ -43,6 +46,7 @@ pub fn contact_sheet(exhibits: &[Exhibit], columns: usize) -> Result<Drawing, Dr
         let room = Rect::new(corner, PICTURE);
         page.layer("rods").items.extend(line_picture::draw(
             &exhibit.frame,
+            &exhibit.rims,
             &View::isometric(),
             room,
         ));
@@ -72,6 +76,7 @@ mod tests {
         (0..n)
             .map(|i| Exhibit {
                 frame: fixture::circuit(3 + i, 3.0),
+                rims: Vec::new(),
                 title: format!("model {i}"),
                 caption: format!("{} rods", 3 + i),
             })

@@ -1,5 +1,5 @@
 //! A frame as plain lines: each rod a line that breaks off where a nearer rod passes in
-//! front of it.
+//! front of it. The rim of its surface is drawn faintly below.
 //!
 //! Two rods are compared at the very point where they cross in the picture, so the
 //! order is right however they lie. Every visible stretch is one line and there are no
@@ -11,6 +11,7 @@ use super::view::View;
 use crate::drawing::{Color, Draw, Item, Point, Rect, Stroke};
 use crate::frame::Frame;
 use crate::frame::axis::Axis;
+use crate::surface::Point3;
 
 /// Thinnest line of a rod, mm.
 const THINNEST: f64 = 0.2;
@@ -23,6 +24,10 @@ const CLEAR_WIDTHS: f64 = 0.4;
 const GRAZING: f64 = 0.3;
 /// Visible stretches shorter than this many line widths are left out: specks.
 const SPECK: f64 = 0.5;
+/// The rim of the surface, mm.
+const RIM: Stroke = Stroke::new(0.25).color(Color::LIGHT_GREY).round();
+/// Points of a rim nearer together than this, mm, are thinned out.
+const RIM_STEP: f64 = 0.5;
 /// How light the farthest lines are, 0 black to 255 white.
 const FARTHEST: f64 = 150.0;
 /// Coordinates are rounded to this many to the millimetre: a fifth of a printer's dot.
@@ -74,26 +79,45 @@ impl Line {
     }
 }
 
-/// Draws the frame as large as it gets in `room`.
-pub(super) fn draw(frame: &Frame, view: &View, room: Rect) -> Vec<Item> {
+/// Draws the frame as large as it gets in `room`, and the closed lines `rims` below it.
+pub(super) fn draw(frame: &Frame, rims: &[Vec<Point3>], view: &View, room: Rect) -> Vec<Item> {
     let axes: Vec<Axis> = frame.rods.iter().map(|r| r.axis).collect();
-    let points = axes.iter().flat_map(|x| [x.a, x.b]).map(|p| view.project(&p));
-    let Some(extent) = Rect::around(points) else { return Vec::new() };
+    let points = axes.iter().flat_map(|x| [x.a, x.b]).chain(rims.iter().flatten().copied());
+    let Some(extent) = Rect::around(points.map(|p| view.project(&p))) else { return Vec::new() };
     let extent = extent.inset(-frame.diameter / 2.0);
     let scale = (0..2).map(|i| room.size()[i] / extent.size()[i]).fold(f64::INFINITY, f64::min);
     let (from, to) = (extent.center(), room.center());
-    let place = |p: Point| [to[0] + (p[0] - from[0]) * scale, to[1] + (p[1] - from[1]) * scale];
+    let place = |p: &Point3| {
+        let p = view.project(p);
+        [0, 1].map(|i| to[i] + (p[i] - from[i]) * scale)
+    };
+    let mut items = Vec::new();
+    for rim in rims {
+        items.polygon(thinned(rim.iter().map(place)), RIM);
+    }
     let mut lines: Vec<Line> = axes
         .iter()
         .map(|x| Line {
-            ends: [x.a, x.b].map(|p| place(view.project(&p))),
+            ends: [x.a, x.b].map(|p| place(&p)),
             depth: [x.a, x.b].map(|p| view.depth(&p)),
             hidden: Vec::new(),
         })
         .collect();
     let width = (frame.diameter * scale).max(THINNEST);
     hide(&mut lines, width);
-    stretches(&mut lines, width)
+    stretches(&mut lines, width, &mut items);
+    items
+}
+
+/// The points, rounded, without those that are too near to the one before.
+fn thinned(points: impl Iterator<Item = Point>) -> Vec<Point> {
+    let mut kept: Vec<Point> = Vec::new();
+    for p in points.map(|p| p.map(rounded)) {
+        if kept.last().is_none_or(|q| (p[0] - q[0]).hypot(p[1] - q[1]) >= RIM_STEP) {
+            kept.push(p);
+        }
+    }
+    kept
 }
 
 /// Marks what each line loses to the others.
@@ -126,7 +150,7 @@ fn crossing(a: &Line, b: &Line) -> Option<([f64; 2], f64)> {
 }
 
 /// The visible stretches as lines, far ones first and lighter.
-fn stretches(lines: &mut [Line], width: f64) -> Vec<Item> {
+fn stretches(lines: &mut [Line], width: f64, out: &mut Vec<Item>) {
     let depths = || lines.iter().flat_map(|l| l.depth);
     let (far, near) =
         (depths().fold(f64::INFINITY, f64::min), depths().fold(f64::NEG_INFINITY, f64::max));
@@ -141,13 +165,11 @@ fn stretches(lines: &mut [Line], width: f64) -> Vec<Item> {
         }
     }
     seen.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut items = Vec::new();
     for (depth, [a, b]) in seen {
         let nearness = if near > far { (depth - far) / (near - far) } else { 1.0 };
         let level = (FARTHEST * (1.0 - nearness)).round() as u8;
-        items.line(a, b, Stroke::new(rounded(width)).color(Color::grey(level)));
+        out.line(a, b, Stroke::new(rounded(width)).color(Color::grey(level)));
     }
-    items
 }
 
 fn rounded(x: f64) -> f64 {
@@ -203,13 +225,23 @@ mod tests {
     fn a_frame_fills_its_room_and_stays_in_it() {
         let frame = fixture::circuit(7, 3.0);
         let room = Rect::new([20.0, 30.0], [90.0, 60.0]);
+        let corners = [[-80.0, -80.0, 0.0], [80.0, -80.0, 0.0], [0.0, 80.0, 0.0]];
+        let rim: Vec<Point3> = corners.map(Point3::from).to_vec();
         for view in [View::plan(), View::isometric()] {
-            let items = draw(&frame, &view, room);
+            let items = draw(&frame, &[rim.clone()], &view, room);
             let extent = bounds(&items).unwrap();
             assert!(room.contains_rect(&extent), "{extent:?}");
             let share = |i: usize| extent.size()[i] / room.size()[i];
             assert!(share(0).max(share(1)) > 0.9, "{extent:?}");
         }
+    }
+
+    #[test]
+    fn a_rim_is_thinned_but_keeps_its_way() {
+        let points = (0..1000).map(|i| [f64::from(i) * 0.01, 0.0]);
+        let kept = thinned(points);
+        assert_eq!(kept.len(), 20);
+        assert!(kept.windows(2).all(|w| (w[1][0] - w[0][0] - RIM_STEP).abs() < 1e-9));
     }
 
     /// In plan, at each contact the over rod is drawn through and the under rod is not.
@@ -220,7 +252,7 @@ mod tests {
         let all = frame.rods.iter().flat_map(|r| [r.axis.a, r.axis.b]);
         let extent = Rect::around(all.map(|p| view.project(&p))).unwrap().inset(-1.5);
         // At full size, where it lies.
-        let items = draw(&frame, &view, extent);
+        let items = draw(&frame, &[], &view, extent);
         for contact in &frame.contacts {
             let over = &frame.rods[contact.over].axis;
             let [x, y] = view.project(&over.at(contact.at_over));

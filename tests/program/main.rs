@@ -6,3 +6,4 @@ mod converting;
 mod inspecting;
 mod refusals;
 mod run;
+mod samples;
