@@ -7,8 +7,6 @@ use crate::design::{Design, DesignError, Settings};
 use crate::drawing::svg;
 use crate::pipeline;
 use crate::sheets::{Exhibit, contact_sheet};
-use crate::surface::topology::Topology;
-use crate::surface::{Mesh, Point3};
 use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
@@ -54,16 +52,10 @@ fn exhibit(file: &Path, quiet: bool, terminal: &Terminal) -> Result<Exhibit, Fai
     let rods = model.measures.rods;
     Ok(Exhibit {
         frame: model.formed.frame,
-        rims: rims(&model.surface),
+        rims: model.guide.rims(),
         title: file.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
-        caption: format!("{}, {rods} rods", design.pattern.name),
+        caption: format!("{}, {rods} rods", design.tiles.name()),
     })
-}
-
-/// The border lines of a surface; none of one whose triangles do not hang together.
-fn rims(surface: &Mesh) -> Vec<Vec<Point3>> {
-    let loops = Topology::new(surface).map(|t| t.border_loops()).unwrap_or_default();
-    loops.iter().map(|rim| rim.iter().map(|&v| surface.points[v]).collect()).collect()
 }
 
 fn read(file: &Path) -> Result<Design, Failure> {

@@ -3,8 +3,8 @@
 mod build;
 mod complete;
 mod convert;
-mod input;
 mod gallery;
+mod input;
 mod inspect;
 mod progress;
 mod sample;

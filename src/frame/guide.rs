@@ -3,6 +3,7 @@
 use crate::chart::Distortion;
 use crate::surface::locate::Locator;
 use crate::surface::polygons::PolygonMesh;
+use crate::surface::topology::Topology;
 use crate::surface::{Mesh, Point3};
 
 /// A guiding surface, mm, z up.
@@ -43,6 +44,20 @@ impl Guide {
     /// Its lowest height.
     pub fn low(&self) -> f64 {
         self.bounds().map_or(0.0, |[lo, _]| lo.z)
+    }
+
+    /// Its border lines, closed; none where its triangles do not hang together, and none
+    /// of a sphere.
+    pub fn rims(&self) -> Vec<Vec<Point3>> {
+        let rims = |mesh: &Mesh| {
+            let loops = Topology::new(mesh).map(|t| t.border_loops()).unwrap_or_default();
+            loops.iter().map(|rim| rim.iter().map(|&v| mesh.points[v]).collect()).collect()
+        };
+        match self {
+            Self::Chart { mesh, .. } => rims(mesh),
+            Self::Mesh(mesh) => rims(&mesh.triangles()),
+            Self::Sphere { .. } => Vec::new(),
+        }
     }
 
     /// How far each of many points lies from it.
