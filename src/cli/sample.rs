@@ -2,8 +2,8 @@
 
 use super::terminal::print;
 use super::{Failure, write_result};
-use crate::surface::samples::{NAMES, sample};
-use crate::write::obj::write_obj;
+use crate::surface::samples::{NAMES, POLYGONS, sample, sample_polygons};
+use crate::write::obj::{write_obj, write_obj_polygons};
 use std::path::PathBuf;
 
 #[derive(clap::Args)]
@@ -18,13 +18,21 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<(), Failure> {
     let Some(name) = &args.name else {
-        let list: String =
-            NAMES.iter().map(|(name, about)| format!("{name:<16} {about}\n")).collect();
-        return print(list.as_bytes());
+        let line = |(name, about): &(&str, &str)| format!("{name:<16} {about}\n");
+        return print(all().map(line).collect::<String>().as_bytes());
     };
-    let mesh = sample(name).ok_or_else(|| {
-        let known: Vec<&str> = NAMES.iter().map(|n| n.0).collect();
-        Failure::input(format!("no sample is called {name}; there are {}", known.join(", ")))
-    })?;
-    write_result(args.out.as_deref(), write_obj(&mesh).as_bytes())
+    let text = match (sample(name), sample_polygons(name)) {
+        (Some(mesh), _) => write_obj(&mesh),
+        (None, Some(mesh)) => write_obj_polygons(&mesh),
+        (None, None) => {
+            let known: Vec<&str> = all().map(|n| n.0).collect();
+            let known = known.join(", ");
+            return Err(Failure::input(format!("no sample is called {name}; there are {known}")));
+        }
+    };
+    write_result(args.out.as_deref(), text.as_bytes())
+}
+
+fn all() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
+    NAMES.iter().chain(&POLYGONS)
 }

@@ -1,7 +1,8 @@
 //! Wavefront OBJ: meshes as text, mm, z up.
 
 use super::figure::{exact, figure};
-use crate::ids::Id;
+use crate::ids::{Id, VertexId};
+use crate::surface::polygons::PolygonMesh;
 use crate::surface::{Mesh, Point3};
 use std::fmt::Write as _;
 
@@ -14,14 +15,21 @@ const REMARK: &str = "# millimetres, z up\n";
 /// The mesh as the text of an OBJ file, to the nanometre: the same bytes everywhere.
 pub fn write_obj(mesh: &Mesh) -> String {
     let mut text = String::from(REMARK);
-    add(&mut text, mesh, 0, |x| figure(x, DIGITS));
+    add(&mut text, &mesh.points, &mesh.triangles, 0, |x| figure(x, DIGITS));
+    text
+}
+
+/// The same for a mesh of polygons.
+pub fn write_obj_polygons(mesh: &PolygonMesh) -> String {
+    let mut text = String::from(REMARK);
+    add(&mut text, &mesh.points, &mesh.faces, 0, |x| figure(x, DIGITS));
     text
 }
 
 /// The mesh as the text of an OBJ file, with the shortest digits that read back the same.
 pub fn write_obj_exact(mesh: &Mesh) -> String {
     let mut text = String::from(REMARK);
-    add(&mut text, mesh, 0, exact);
+    add(&mut text, &mesh.points, &mesh.triangles, 0, exact);
     text
 }
 
@@ -31,28 +39,34 @@ pub fn write_obj_objects<'a>(objects: impl IntoIterator<Item = (&'a str, Mesh)>)
     let mut before = 0;
     for (name, mesh) in objects {
         writeln!(text, "o {name}").expect("writing to a string does not fail");
-        add(&mut text, &mesh, before, exact);
+        add(&mut text, &mesh.points, &mesh.triangles, before, exact);
         before += mesh.points.len();
     }
     text
 }
 
 /// Adds vertices and faces; `before` vertices stand in the file already.
-fn add(text: &mut String, mesh: &Mesh, before: usize, number: impl Fn(f64) -> String) {
-    for &Point3 { coords } in &mesh.points {
-        let [x, y, z] = [coords.x, coords.y, coords.z].map(&number);
+fn add(
+    text: &mut String,
+    points: &[Point3],
+    faces: &[impl AsRef<[VertexId]>],
+    before: usize,
+    number: impl Fn(f64) -> String,
+) {
+    for p in points {
+        let [x, y, z] = [p.x, p.y, p.z].map(&number);
         writeln!(text, "v {x} {y} {z}").expect("writing to a string does not fail");
     }
-    for t in &mesh.triangles {
-        let [a, b, c] = t.map(|v| before + v.index() + 1);
-        writeln!(text, "f {a} {b} {c}").expect("writing to a string does not fail");
+    for face in faces {
+        let corners = face.as_ref().iter().map(|v| format!(" {}", before + v.index() + 1));
+        writeln!(text, "f{}", corners.collect::<String>())
+            .expect("writing to a string does not fail");
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ids::VertexId;
     use crate::surface::{read, samples};
 
     #[test]

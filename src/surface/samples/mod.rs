@@ -5,7 +5,7 @@
 //! write another and give it a line in `TABLE`. The meshes come from a few [`grid`]s
 //! that keep triangles near equilateral; the tests hold every sample to that.
 //!
-//! [`dome`], [`hall`], [`body`], [`vessel`] and [`sheet`] are the families. The igloo,
+//! [`dome`], [`hall`], [`body`], [`vessel`], [`sheet`] and [`ring`] are the families. The igloo,
 //! the free forms and the animals are after those of Song and others (2013), Fig. 18
 //! and 20, in likeness, not in measure.
 
@@ -13,6 +13,7 @@ pub mod body;
 pub mod dome;
 pub mod grid;
 pub mod hall;
+pub mod ring;
 pub mod sheet;
 pub mod vessel;
 
@@ -20,6 +21,7 @@ pub mod vessel;
 mod tests;
 
 use crate::surface::Mesh;
+use crate::surface::polygons::PolygonMesh;
 
 struct Sample {
     name: &'static str,
@@ -77,6 +79,15 @@ pub const NAMES: [(&str, &str); TABLE.len()] = {
     }
     names
 };
+
+/// Names of the samples that are polygons to be used as they are.
+pub const POLYGONS: [(&str, &str); 1] =
+    [("ring", "closed ring of 200 hexagons, 700 mm across, 200 mm high, for --pattern mesh")];
+
+/// A sample of polygons by name.
+pub fn sample_polygons(name: &str) -> Option<PolygonMesh> {
+    (name == POLYGONS[0].0).then(|| ring::Ring::SAMPLE.polygons())
+}
 
 /// A sample surface by name.
 pub fn sample(name: &str) -> Option<Mesh> {
