@@ -228,7 +228,7 @@ mod tests {
         let corners = [[-80.0, -80.0, 0.0], [80.0, -80.0, 0.0], [0.0, 80.0, 0.0]];
         let rim: Vec<Point3> = corners.map(Point3::from).to_vec();
         for view in [View::plan(), View::isometric()] {
-            let items = draw(&frame, &[rim.clone()], &view, room);
+            let items = draw(&frame, std::slice::from_ref(&rim), &view, room);
             let extent = bounds(&items).unwrap();
             assert!(room.contains_rect(&extent), "{extent:?}");
             let share = |i: usize| extent.size()[i] / room.size()[i];
