@@ -2,17 +2,22 @@
 //! closed, with many borders, with handles.
 //!
 //! A tile's flat picture is the plane through the middle of its corners that faces along
-//! its area vector, in mm. A rod crosses the middle of an edge, turned from the way to
-//! the tile's middle; so the inner polygon of a unit is one and the same figure for all
-//! turns, only larger or smaller, and small turns do not break uneven tiles.
+//! its area vector, in mm. Rods run through the middles of the edges, turned from the way
+//! to the tile's middle. In a tile that is not regular there is a choice: to turn them
+//! all by the same angle; or to turn them as in a regular polygon and then to stretch
+//! the whole with the tile, by the affine map that brings the polygon nearest to it; or
+//! something between. The first suits tiles of uneven sides, the second stretched and
+//! skewed ones, in which it keeps every unit a circuit. Each tile takes what leaves its
+//! rods most room.
 
 use super::{Canvas, Sizing};
 use crate::chart::SurfacePoint;
 use crate::ids::{Id, IdVec, TileEdgeId, TileId, VertexId};
-use crate::pattern::Line;
+use crate::pattern::{FlatUnit, Line};
 use crate::surface::{Point3, Vector3};
 use crate::tiling::Net;
-use nalgebra::{Point2, Rotation2};
+use nalgebra::{Matrix2, Point2, Rotation2, Vector2};
+use std::f64::consts::TAU;
 
 /// A polygon mesh with the turn of its rods.
 #[derive(Clone, Debug)]
@@ -25,13 +30,15 @@ pub struct MeshCanvas {
     edge: f64,
 }
 
-/// The plane of a tile.
+/// The plane of a tile, and how the tile is stretched in it.
 #[derive(Clone, Copy, Debug)]
 struct Frame {
     middle: Point3,
     normal: Vector3,
     x: Vector3,
     y: Vector3,
+    /// From a regular polygon to the tile, and back.
+    stretch: [Matrix2<f64>; 2],
 }
 
 impl Frame {
@@ -46,13 +53,82 @@ impl Frame {
         let along = at(1) - at(0);
         let x = (along - normal * along.dot(&normal)).try_normalize(0.0);
         let x = x.unwrap_or_else(|| normal.cross(&Vector3::z()));
-        Self { middle, normal, x, y: normal.cross(&x) }
+        let mut frame =
+            Self { middle, normal, x, y: normal.cross(&x), stretch: [Matrix2::identity(); 2] };
+        let flat: Vec<Point2<f64>> = corners.iter().map(|&p| frame.flat(p)).collect();
+        frame.stretch = roomiest(&flat);
+        frame
     }
 
     fn flat(&self, p: Point3) -> Point2<f64> {
         let d = p - self.middle;
         Point2::new(d.dot(&self.x), d.dot(&self.y))
     }
+}
+
+/// The rods of a tile in its flat picture, which is stretched as `stretch` says (there
+/// and back); `middles` are those of its edges.
+fn rods(middles: &[Point2<f64>], stretch: &[Matrix2<f64>; 2], turn: f64) -> Vec<Line> {
+    let [there, back] = stretch;
+    let line = |&at: &Point2<f64>| Line {
+        at,
+        inward: there * (Rotation2::new(turn) * (back * -at.coords)),
+    };
+    middles.iter().map(line).collect()
+}
+
+/// Parts of a tile's stretch that are tried, as exponents.
+const PARTS: [f64; 3] = [0.0, 0.5, 1.0];
+
+/// The turn, radians, at which the room in a tile is measured. The order of rooms hardly
+/// depends on it.
+const TRIAL_TURN: f64 = 0.35;
+
+/// The part of its stretch, there and back, that leaves the rods of a tile most room.
+fn roomiest(corners: &[Point2<f64>]) -> [Matrix2<f64>; 2] {
+    let n = corners.len();
+    let middles: Vec<Point2<f64>> =
+        (0..n).map(|i| nalgebra::center(&corners[i], &corners[(i + 1) % n])).collect();
+    let room = |stretch: &[Matrix2<f64>; 2]| {
+        let unit = FlatUnit::new(&rods(&middles, stretch, TRIAL_TURN));
+        let least = |u: FlatUnit| {
+            let side = |i: usize| (u.contacts[i] - u.contacts[(i + 1) % n]).norm();
+            (0..n).map(side).fold(f64::INFINITY, f64::min)
+        };
+        unit.map_or(0.0, least)
+    };
+    let plain = [Matrix2::identity(); 2];
+    let svd = stretch(corners).svd(true, true);
+    let (Some(u), Some(v)) = (svd.u, svd.v_t) else { return plain };
+    let mut best = (room(&plain), plain);
+    for part in PARTS {
+        let there = u * Matrix2::from_diagonal(&svd.singular_values.map(|s| s.powf(part))) * v;
+        let Some(back) = there.try_inverse().filter(|_| there.determinant() > 0.0) else {
+            continue;
+        };
+        let found = room(&[there, back]);
+        if found > best.0 * MORE {
+            best = (found, [there, back]);
+        }
+    }
+    best.1
+}
+
+/// Room must grow by this factor for a tile to be treated otherwise, so that rounding
+/// does not decide in tiles that are regular.
+const MORE: f64 = 1.0 + 1e-6;
+
+/// The linear map that brings the corners of a regular polygon nearest to these, which
+/// are given from their middle. For unit vectors p at equal angles Σ p pᵀ = n/2.
+fn stretch(corners: &[Point2<f64>]) -> Matrix2<f64> {
+    let n = corners.len() as f64;
+    let regular = |k: usize| {
+        let (sin, cos) = (TAU * k as f64 / n).sin_cos();
+        Vector2::new(cos, sin)
+    };
+    let sum: Matrix2<f64> =
+        corners.iter().enumerate().map(|(k, c)| c.coords * regular(k).transpose()).sum();
+    sum * (2.0 / n)
 }
 
 impl MeshCanvas {
@@ -113,16 +189,16 @@ impl Canvas for MeshCanvas {
 
     fn lines(&self, tile: TileId) -> Vec<Line> {
         let frame = &self.frames[tile];
-        let line = |&e: &TileEdgeId| {
+        let middle = |&e: &TileEdgeId| {
             let [a, b] = self.net.edges[e].ends.map(|v| self.points[VertexId::new(v)]);
-            let at = frame.flat(nalgebra::center(&a, &b));
-            Line { at, inward: Rotation2::new(self.turn) * -at.coords }
+            frame.flat(nalgebra::center(&a, &b))
         };
-        self.net.tiles[tile].edges.iter().map(line).collect()
+        let middles: Vec<_> = self.net.tiles[tile].edges.iter().map(middle).collect();
+        rods(&middles, &frame.stretch, self.turn)
     }
 
     fn place(&self, tile: TileId, p: Point2<f64>) -> Option<SurfacePoint> {
-        let Frame { middle, normal, x, y } = self.frames[tile];
+        let Frame { middle, normal, x, y, .. } = self.frames[tile];
         Some(SurfacePoint { position: middle + x * p.x + y * p.y, normal })
     }
 
@@ -143,7 +219,6 @@ impl Canvas for MeshCanvas {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::FlatUnit;
 
     /// A box of unit squares, 3 × 2 × 1, closed.
     fn brick() -> (IdVec<VertexId, Point3>, Vec<Vec<VertexId>>) {
@@ -168,6 +243,38 @@ mod tests {
                 let wanted = 0.5 * 0.3f64.sin() * 2f64.sqrt();
                 assert!((p.coords.norm() - wanted).abs() < 1e-12);
             }
+        }
+    }
+
+    /// With its full stretch an affine image of a regular tile has a unit at every turn,
+    /// and its contacts are the images of those of the regular tile.
+    #[test]
+    fn stretched_and_skewed_tiles_have_units_at_every_turn() {
+        let skew = Matrix2::new(5.0, 1.5, 0.2, 0.6);
+        for sides in 3..=8 {
+            let corner = |k: usize| {
+                let (sin, cos) = (TAU * k as f64 / sides as f64).sin_cos();
+                Point2::new(cos, sin)
+            };
+            let regular: Vec<Point2<f64>> = (0..sides).map(corner).collect();
+            let skewed: Vec<Point2<f64>> = regular.iter().map(|p| skew * p).collect();
+            assert!((stretch(&skewed) - skew).norm() < 1e-12);
+            for turn in [-0.7, 0.05, 0.3, 0.75] {
+                let unit = |corners: &[Point2<f64>], a: Matrix2<f64>| {
+                    let middle = |i| nalgebra::center(&corners[i], &corners[(i + 1) % sides]);
+                    let middles: Vec<_> = (0..sides).map(middle).collect();
+                    let back = a.try_inverse().expect("not singular");
+                    FlatUnit::new(&rods(&middles, &[a, back], turn)).expect("a unit").contacts
+                };
+                let (plain, image) = (unit(&regular, Matrix2::identity()), unit(&skewed, skew));
+                for (p, q) in plain.iter().zip(&image) {
+                    assert!((skew * p - q).norm() < 1e-9, "{sides} {turn}");
+                }
+            }
+            // What is chosen leaves at least as much room as the plain turn.
+            let [there, back] = roomiest(&skewed);
+            assert!((there * back - Matrix2::identity()).norm() < 1e-9);
+            assert_eq!(roomiest(&regular), [Matrix2::identity(); 2]);
         }
     }
 
