@@ -25,7 +25,9 @@ pub fn check(bytes: &[u8]) {
                 assert!(t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
             }
         }
-        Err(error) => assert!(error.to_string().starts_with("fuzzed: ") && !error.hint().is_empty()),
+        Err(error) => {
+            assert!(error.to_string().starts_with("fuzzed: ") && !error.hint().is_empty())
+        }
     }
     match read_polygons_bytes("fuzzed", bytes, None) {
         Ok(reading) => {
@@ -46,6 +48,8 @@ pub fn check(bytes: &[u8]) {
             let triangles: usize = mesh.faces.iter().map(|f| f.len() - 2).sum();
             assert_eq!(mesh.triangles().triangles.len(), triangles);
         }
-        Err(error) => assert!(error.to_string().starts_with("fuzzed: ") && !error.hint().is_empty()),
+        Err(error) => {
+            assert!(error.to_string().starts_with("fuzzed: ") && !error.hint().is_empty())
+        }
     }
 }

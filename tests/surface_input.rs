@@ -3,7 +3,8 @@
 
 use proptest::prelude::*;
 use rodwright::ids::{Id, VertexId};
-use rodwright::surface::read::{Cause, ReadError, Reading, gltf::GltfError, read, read_bytes};
+use rodwright::surface::read::gltf::GltfError;
+use rodwright::surface::read::{Cause, ReadError, Reading, read, read_bytes, read_polygons_bytes};
 use rodwright::surface::topology::require_disk;
 use rodwright::surface::{Mesh, Point3};
 use serde_json::{Value, json};
@@ -425,12 +426,27 @@ fn obj_like() -> impl Strategy<Value = String> {
     proptest::collection::vec(line, 0..30).prop_map(|lines| lines.join("\n"))
 }
 
+/// So much of each format that the rest is read by it.
+const STARTS: [&[u8]; 8] = [
+    b"glTF\x02\0\0\0",
+    b"{",
+    b"v 0 0 0\nf ",
+    b"solid\nfacet normal 0 0 1\nouter loop\n",
+    b"OFF\n2 2 0\n",
+    b"ply\n",
+    b"ply\nformat ascii 1.0\nelement vertex 3\nproperty int x\nproperty int y\nproperty int z\n\
+        element face 9\nproperty list int int vertex_index\nend_header\n",
+    b"ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty char x\nproperty char y\n\
+        property char z\nelement face 9\nproperty list uchar uchar vertex_index\nend_header\n",
+];
+
 proptest! {
     #[test]
     fn any_bytes_give_an_answer(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
         let _ = read_bytes("x", &bytes, None);
-        for start in [&b"glTF\x02\0\0\0"[..], b"{", b"v 0 0 0\nf "] {
-            let _ = read_bytes("x", &[start, &bytes].concat(), None);
+        for start in STARTS {
+            let bytes = [start, &bytes].concat();
+            let _ = (read_bytes("x", &bytes, None), read_polygons_bytes("x", &bytes, None));
         }
     }
 

@@ -32,8 +32,8 @@ impl Format {
             () if stl::is_text(bytes) => Self::TextStl,
             () if off::is_off(bytes) => Self::Off,
             () if looks_like.is_some() => return Err(Cause::Format { looks_like }),
-            () if stl::is_damaged_binary(bytes) => Self::BinaryStl,
             () if bytes.split(|b| *b == b'\n').any(is_vertex) => Self::Obj,
+            () if stl::is_damaged_binary(bytes) => Self::BinaryStl,
             () => return Err(Cause::Format { looks_like: None }),
         })
     }

@@ -111,6 +111,9 @@ const HARMLESS: [&str; 5] = [
     "KHR_lights_punctual",
 ];
 
+/// Extensions that hold the vertices in a packed form of their own.
+const COMPRESSED: [&str; 2] = ["KHR_draco_mesh_compression", "EXT_meshopt_compression"];
+
 /// Placed corners and vertices allowed beyond a few for each byte of the file: enough
 /// for any scene that repeats a small mesh, too little to fill the memory.
 const FREE_COPIES: usize = 4_000_000;
@@ -200,13 +203,17 @@ fn parse(json: &[u8], notes: &mut Vec<String>) -> Result<Document, GltfError> {
     if root.extensions_used.iter().any(|e| e == "EXT_mesh_gpu_instancing") {
         notes.push("copies by EXT_mesh_gpu_instancing left out".into());
     }
+    let mut used = root.extensions_used.iter();
+    let compressed = used.find(|e| COMPRESSED.contains(&e.as_str())).cloned();
     prepare_bounds(&mut root)?;
-    Document::from_json(root).map_err(|e| match e {
-        gltf::Error::Validation(problems) => {
+    Document::from_json(root).map_err(|e| match (e, compressed) {
+        // Not declared as required, but the data is nowhere else.
+        (gltf::Error::Validation(_), Some(extension)) => GltfError::Extension(extension),
+        (gltf::Error::Validation(problems), None) => {
             let text = |(path, e): &(gltf::json::Path, _)| format!("{path}: {e}");
             GltfError::Invalid(problems.iter().take(3).map(text).collect::<Vec<_>>().join("; "))
         }
-        other => GltfError::Invalid(other.to_string()),
+        (other, _) => GltfError::Invalid(other.to_string()),
     })
 }
 
