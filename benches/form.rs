@@ -4,7 +4,7 @@
 //! Every row is the least of several runs. The first columns say what was made; the
 //! error is that of the worst contact, as part of the rod diameter.
 
-use rodwright::chart::PlanarChart;
+use rodwright::chart::{Method, PlanarChart};
 use rodwright::frame::canvas::PlaneCanvas;
 use rodwright::frame::close::{Joint, close};
 use rodwright::frame::fit::{Fit, fit};
@@ -45,8 +45,9 @@ fn least<T>(mut work: impl FnMut() -> T) -> (Duration, T) {
 fn main() {
     let mesh = sample("igloo").expect("the igloo is a sample");
     let topology = require_disk(&mesh).expect("the igloo is a disk");
-    let (chart_time, chart) =
-        least(|| PlanarChart::new(mesh.clone(), &topology).expect("the igloo flattens"));
+    let (chart_time, chart) = least(|| {
+        PlanarChart::new(mesh.clone(), &topology, Method::Abf).expect("the igloo flattens")
+    });
     println!("chart of {} triangles: {:.1} ms", mesh.triangles.len(), ms(chart_time));
     println!(
         "{:>6} {:>9} {:>9} {:>8} {:>10} {:>10} {:>10} {:>6} {:>9}",

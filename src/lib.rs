@@ -5,14 +5,14 @@
 //! and draws the papers for the workshop. Lengths are mm, angles radians, z is up.
 //!
 //! ```
-//! use rodwright::chart::PlanarChart;
+//! use rodwright::chart::{Method, PlanarChart};
 //! use rodwright::frame::{canvas::PlaneCanvas, fit::fit, form::{FormSettings, form}, layer::Layering};
 //! use rodwright::surface::{samples::sample, topology::require_disk};
 //! use rodwright::{pattern::Pattern, tiling::Placement};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let dome = sample("igloo").ok_or("no such sample")?;
-//! let chart = PlanarChart::new(dome.clone(), &require_disk(&dome)?)?;
+//! let chart = PlanarChart::new(dome.clone(), &require_disk(&dome)?, Method::Abf)?;
 //! let pattern = Pattern::named("4.4.4.4").ok_or("no such pattern")?;
 //! let (rod, turn) = (3.0, pattern.turn.to_radians());
 //! let start = Placement { origin: [0.0; 2].into(), rotation: 0.0, edge: 20.0 * rod };

@@ -81,7 +81,7 @@ fn on_chart(
         prepare(reading, design.up, design.component, design.cut, design.span)?;
     begin(Step::Chart);
     let topology = require_chartable(&surface)?;
-    let chart = PlanarChart::new(surface.clone(), &topology)?;
+    let chart = PlanarChart::new(surface.clone(), &topology, design.chart)?;
     begin(Step::Fit);
     let turn = design.turn.unwrap_or(pattern.turn.to_radians());
     let place = |edge| Placement { origin: design.origin.into(), rotation: design.rotate, edge };
@@ -96,7 +96,7 @@ fn on_chart(
             (canvas, fit)
         }
     };
-    let guide = Guide::Chart { mesh: surface, distortion: chart.distortion() };
+    let guide = Guide::Chart { mesh: surface, distortion: chart.distortion().clone() };
     finish(design, &canvas, fit, guide, notes, begin)
 }
 

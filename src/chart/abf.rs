@@ -16,21 +16,25 @@
 //! condition, but a sum over triangles, so that the matrix is a sum of 6 × 6 blocks.
 
 use super::ChartError;
+use super::sheet::Sheet;
 use crate::ids::{Id, VertexId};
-use crate::linalg::{SpdSolver, block_entries};
+use crate::linalg::{LowerPattern, PairSolver};
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3, Vector6};
 use std::f64::consts::{PI, TAU};
 
-/// Iterations before giving up. Gentle surfaces take 4, heads and animals 6 to 12.
-const MAX_STEPS: usize = 60;
+/// Steps before giving up. Gentle surfaces take 4, heads and animals 6 to 12.
+pub(super) const MAX_STEPS: usize = 40;
 
-/// Largest change of an angle in the last step, radians. Larger and the layout
-/// does not close to the precision of the mesh; smaller costs a step for nothing.
-const STILL: f64 = 1e-9;
+/// Largest change of an angle in the last step, radians. A step leaves a hundredth of
+/// the one before to be done, so that angles are then right to about 1e-8, far below
+/// the angle error of any map. Larger, and the figures depend on the start; smaller
+/// costs a step for nothing.
+const STILL: f64 = 1e-6;
 
-/// Largest remaining error of a constraint, radians (or logarithm of a length
-/// ratio). The layout spreads what is left over all triangles.
-const CLOSED: f64 = 1e-8;
+/// Largest error of a constraint before the last step, radians (or logarithm of a
+/// length ratio); a Newton step leaves about its square. Larger, and the layout has to
+/// spread what is left over all triangles.
+const CLOSED: f64 = 1e-5;
 
 /// A step goes at most this part of the way to an angle of zero or π, so that
 /// angles stay between the two; nearer to 1 and slivers collapse to zero.
@@ -47,42 +51,44 @@ pub struct Flattening {
     pub angles: Vec<[f64; 3]>,
     /// Steps taken.
     pub steps: usize,
-    /// Largest error of a constraint left.
+    /// Largest error of a constraint before the last step, radians.
     pub residual: f64,
 }
 
-/// Planar angles for a triangle mesh of disk shape.
-///
-/// `surface` holds the angle at each corner of each triangle, radians;
-/// `boundary` says of each vertex whether it lies on the rim.
+/// Planar angles for a sheet.
 ///
 /// # Errors
 /// [`ChartError::NoConvergence`] when the constraints cannot be met, and
 /// [`ChartError::Linear`] when a step has no solution.
-pub fn flatten(
-    triangles: &[[VertexId; 3]],
-    surface: &[[f64; 3]],
-    boundary: &[bool],
-) -> Result<Flattening, ChartError> {
-    AbfSolver::new(triangles, surface, boundary)?.run()
+pub fn flatten(sheet: &Sheet) -> Result<Flattening, ChartError> {
+    flatten_within(sheet, MAX_STEPS)
+}
+
+/// [`flatten`] with another limit to its steps.
+pub(super) fn flatten_within(sheet: &Sheet, max_steps: usize) -> Result<Flattening, ChartError> {
+    AbfSolver::new(sheet)?.run(max_steps)
 }
 
 /// The working state of one flattening.
 struct AbfSolver<'a> {
     triangles: &'a [[VertexId; 3]],
-    /// Number of each inner vertex among the inner vertices.
-    inner: Vec<Option<usize>>,
+    /// Triangles from here on fill holes.
+    real: usize,
+    /// Number of each inner vertex among the inner vertices, or [`RIM`].
+    inner: Vec<u32>,
     inner_count: usize,
     target: Vec<[f64; 3]>,
     angles: Vec<[f64; 3]>,
-    solver: SpdSolver,
-    values: Vec<f64>,
+    solver: PairSolver,
 }
 
-/// One triangle, linearised: the six constraints at its corners (three sums,
-/// three lengths) against its three angles.
+/// In place of a number: a vertex on the rim, which has no constraints.
+const RIM: u32 = u32::MAX;
+
+/// One triangle, linearised: the six constraints at its corners (at each the sum,
+/// then the lengths) against its three angles.
 struct Element {
-    /// Constraint gradients, rows as in [`AbfSolver::rows`].
+    /// Constraint gradients.
     b: Matrix6x3<f64>,
     /// The triangle's share of the constraint values.
     c: Vector6<f64>,
@@ -93,72 +99,73 @@ struct Element {
 }
 
 impl<'a> AbfSolver<'a> {
-    fn new(
-        triangles: &'a [[VertexId; 3]],
-        surface: &[[f64; 3]],
-        boundary: &[bool],
-    ) -> Result<Self, ChartError> {
+    fn new(sheet: &'a Sheet) -> Result<Self, ChartError> {
+        let triangles = &sheet.triangles[..];
         let mut inner_count = 0;
-        let inner: Vec<Option<usize>> = boundary
-            .iter()
-            .map(|rim| {
-                (!rim).then(|| {
-                    inner_count += 1;
-                    inner_count - 1
-                })
-            })
-            .collect();
-        let target = scaled_targets(triangles, surface, boundary);
-        let mut entries = Vec::with_capacity(21 * triangles.len());
-        for triangle in triangles {
-            let rows = rows(triangle, &inner, inner_count);
-            for (i, j) in block_entries(6) {
-                if let (Some(i), Some(j)) = (rows[i], rows[j]) {
-                    entries.push((i, j));
-                }
+        let mut number = |rim: &bool| {
+            if *rim {
+                return RIM;
             }
-        }
-        let solver = SpdSolver::new(2 * inner_count, &entries)?;
-        let values = Vec::with_capacity(entries.len());
+            inner_count += 1;
+            inner_count - 1
+        };
+        let inner: Vec<u32> = sheet.rim.iter().map(&mut number).collect();
+        let inner_count = inner_count as usize;
+        let pairs = triangles.iter().flat_map(|t| {
+            let corners = t.map(|v| inner[v.index()]);
+            (0..3).filter_map(move |k| {
+                let (i, j) = (corners[k], corners[(k + 1) % 3]);
+                (i != RIM && j != RIM).then_some((i as usize, j as usize))
+            })
+        });
+        let solver = PairSolver::new(LowerPattern::new(inner_count, pairs)?)?;
+        let target = scaled_targets(sheet);
         let angles = target.clone();
-        Ok(Self { triangles, inner, inner_count, target, angles, solver, values })
+        Ok(Self { triangles, real: sheet.real, inner, inner_count, target, angles, solver })
     }
 
-    fn run(mut self) -> Result<Flattening, ChartError> {
+    fn run(mut self, max_steps: usize) -> Result<Flattening, ChartError> {
         let mut residual = f64::INFINITY;
-        for step in 1..=MAX_STEPS {
-            let (change, before) = self.step()?;
+        for steps in 1..=max_steps {
+            let (mut multipliers, before) = self.assemble();
             residual = before;
+            if self.inner_count > 0 {
+                self.solver.factor()?;
+                self.solver.solve(&mut multipliers);
+            }
+            let change = self.apply(&multipliers);
             if !change.is_finite() {
                 break;
             }
             if change < STILL && residual < CLOSED {
-                return Ok(Flattening { angles: self.angles, steps: step, residual });
+                return Ok(Flattening { angles: self.angles, steps, residual });
             }
         }
-        Err(ChartError::NoConvergence { steps: MAX_STEPS, residual })
+        Err(ChartError::NoConvergence { steps: max_steps, residual })
     }
 
-    /// One step; returns the largest change of an angle and the largest
-    /// constraint error before it.
-    fn step(&mut self) -> Result<(f64, f64), ChartError> {
-        let elements: Vec<Element> = (0..self.triangles.len()).map(|t| self.element(t)).collect();
+    /// Sums up the system at the angles of now; returns its right-hand side and the
+    /// largest error of a constraint.
+    fn assemble(&mut self) -> (Vec<f64>, f64) {
+        // The constraints hold, besides the sums over triangles, −2π a vertex.
+        let constant = |row: usize| if row.is_multiple_of(2) { -TAU } else { 0.0 };
+        let mut errors: Vec<f64> = (0..2 * self.inner_count).map(constant).collect();
         let mut rhs = vec![0.0; 2 * self.inner_count];
-        let mut errors = self.constant_terms();
-        self.values.clear();
-        for (triangle, e) in self.triangles.iter().zip(&elements) {
-            let rows = rows(triangle, &self.inner, self.inner_count);
+        self.solver.clear();
+        for (t, triangle) in self.triangles.iter().enumerate() {
+            let e = self.element(t);
             let block: Matrix6<f64> = e.b * e.p * e.b.transpose();
             let load = e.b * e.free;
-            for (k, row) in rows.iter().enumerate() {
-                if let Some(row) = *row {
-                    rhs[row] += load[k];
-                    errors[row] += e.c[k];
+            let nodes = triangle.map(|v| self.inner[v.index()]);
+            for (k, &node) in nodes.iter().enumerate().filter(|(_, n)| **n != RIM) {
+                let node = node as usize;
+                for half in 0..2 {
+                    rhs[2 * node + half] += load[2 * k + half];
+                    errors[2 * node + half] += e.c[2 * k + half];
                 }
-            }
-            for (i, j) in block_entries(6) {
-                if rows[i].is_some() && rows[j].is_some() {
-                    self.values.push(block[(i, j)]);
+                for (l, &other) in nodes[..=k].iter().enumerate().filter(|(_, n)| **n != RIM) {
+                    let part = block.fixed_view::<2, 2>(2 * k, 2 * l).into_owned();
+                    self.solver.add(node, other as usize, part);
                 }
             }
         }
@@ -166,23 +173,25 @@ impl<'a> AbfSolver<'a> {
         for (r, e) in rhs.iter_mut().zip(&errors) {
             *r += e;
         }
-        if self.inner_count > 0 {
-            self.solver.factor(&self.values)?;
-            self.solver.solve(&mut rhs);
-        }
-        Ok((self.apply(&elements, &rhs), residual))
+        (rhs, residual)
     }
 
-    /// Moves the angles by the solution, as far as they stay angles.
-    fn apply(&mut self, elements: &[Element], multipliers: &[f64]) -> f64 {
-        let mut changes = Vec::with_capacity(elements.len());
+    /// Moves the angles by the solution, as far as they stay angles; returns the
+    /// largest change asked for.
+    fn apply(&mut self, multipliers: &[f64]) -> f64 {
+        let mut changes = Vec::with_capacity(self.triangles.len());
         let mut part = 1.0f64;
-        for ((triangle, e), angles) in self.triangles.iter().zip(elements).zip(&self.angles) {
-            let rows = rows(triangle, &self.inner, self.inner_count);
-            let mu = Vector6::from_fn(|k, _| rows[k].map_or(0.0, |row| multipliers[row]));
+        for (t, triangle) in self.triangles.iter().enumerate() {
+            let e = self.element(t);
+            let nodes = triangle.map(|v| self.inner[v.index()]);
+            let mu = Vector6::from_fn(|k, _| match nodes[k / 2] {
+                RIM => 0.0,
+                node => multipliers[2 * node as usize + k % 2],
+            });
             let change = e.free - e.p * (e.b.transpose() * mu);
             for k in 0..3 {
-                let room = if change[k] < 0.0 { angles[k] } else { PI - angles[k] };
+                let angle = self.angles[t][k];
+                let room = if change[k] < 0.0 { angle } else { PI - angle };
                 part = part.min(KEEP_OFF * room / change[k].abs());
             }
             changes.push(change);
@@ -197,27 +206,26 @@ impl<'a> AbfSolver<'a> {
         largest
     }
 
-    /// What the vertex constraints hold besides the sums over triangles: −2π a vertex.
-    fn constant_terms(&self) -> Vec<f64> {
-        let mut c = vec![0.0; 2 * self.inner_count];
-        c[..self.inner_count].fill(-TAU);
-        c
-    }
-
     fn element(&self, t: usize) -> Element {
         let alpha = Vector3::from(self.angles[t]);
         let beta = Vector3::from(self.target[t]);
+        let (sin, cos) = (alpha.map(f64::sin), alpha.map(f64::cos));
+        let (cot, log) = (cos.component_div(&sin), sin.map(f64::ln));
         let mut b = Matrix6x3::zeros();
         let mut c = Vector6::zeros();
         for j in 0..3 {
             let (next, last) = ((j + 1) % 3, (j + 2) % 3);
-            b[(j, j)] = 1.0;
-            c[j] = alpha[j];
-            b[(3 + j, next)] = alpha[next].tan().recip();
-            b[(3 + j, last)] = -alpha[last].tan().recip();
-            c[3 + j] = alpha[next].sin().ln() - alpha[last].sin().ln();
+            b[(2 * j, j)] = 1.0;
+            c[2 * j] = alpha[j];
+            b[(2 * j + 1, next)] = cot[next];
+            b[(2 * j + 1, last)] = -cot[last];
+            c[2 * j + 1] = log[next] - log[last];
         }
-        let d = beta.component_mul(&beta);
+        let d = if t < self.real {
+            beta.component_mul(&beta)
+        } else {
+            Vector3::repeat(FILLER_SOFTNESS)
+        };
         let sum = d.sum();
         let p = Matrix3::from_diagonal(&d) - d * d.transpose() / sum;
         let to_target = beta - alpha;
@@ -226,35 +234,41 @@ impl<'a> AbfSolver<'a> {
     }
 }
 
-/// The unknowns that belong to a triangle's six constraints: angle sum at each
-/// corner, then length at each corner; `None` at the rim.
-fn rows(triangle: &[VertexId; 3], inner: &[Option<usize>], count: usize) -> [Option<usize>; 6] {
-    let [a, b, c] = triangle.map(|v| inner[v.index()]);
-    let length = |i: Option<usize>| i.map(|i| count + i);
-    [a, b, c, length(a), length(b), length(c)]
-}
+/// Inverse weight of the angles that fill a hole, square radians, in place of β²: they
+/// have no shape to keep. Larger, and rounding tells in the system; smaller, and holes
+/// stiffen the surface.
+const FILLER_SOFTNESS: f64 = 100.0;
+
+/// Least angle that a filler starts from, radians: smaller, and holes that are far from
+/// flat start from needles, which the steps cannot open.
+const LEAST_FILLER: f64 = 0.02;
+
+/// Least sum of the angles that fill a hole at one of its corners, radians, where the
+/// surface leaves less: smaller, and folds at a hole's edge begin as needles.
+const LEAST_GAP: f64 = 0.1;
 
 /// Surface angles, scaled so that they sum to 2π round every inner vertex (paper, 2.1).
-fn scaled_targets(
-    triangles: &[[VertexId; 3]],
-    surface: &[[f64; 3]],
-    boundary: &[bool],
-) -> Vec<[f64; 3]> {
-    let mut sums = vec![0.0; boundary.len()];
-    for (triangle, angles) in triangles.iter().zip(surface) {
+/// At the edge of a hole those of the surface stay and the fillers take what is left.
+fn scaled_targets(sheet: &Sheet) -> Vec<[f64; 3]> {
+    let mut sums = vec![[0.0; 2]; sheet.rim.len()];
+    let kind = |t: usize| usize::from(t >= sheet.real);
+    let each = || sheet.triangles.iter().zip(&sheet.angles).enumerate();
+    for (t, (triangle, angles)) in each() {
         for k in 0..3 {
-            sums[triangle[k].index()] += angles[k].max(LEAST_ANGLE);
+            sums[triangle[k].index()][kind(t)] += angles[k].max(LEAST_ANGLE);
         }
     }
-    let scaled = |v: VertexId, angle: f64| {
-        let angle = angle.max(LEAST_ANGLE);
-        if boundary[v.index()] { angle } else { angle * TAU / sums[v.index()] }
+    let factor = |t: usize, v: VertexId| match (sheet.rim[v.index()], sums[v.index()]) {
+        (true, _) => 1.0,
+        (_, [all, 0.0] | [0.0, all]) => TAU / all,
+        (_, [real, filler]) if t >= sheet.real => (TAU - real).max(LEAST_GAP) / filler,
+        _ => 1.0,
     };
-    triangles
-        .iter()
-        .zip(surface)
-        .map(|(t, angles)| std::array::from_fn(|k| scaled(t[k], angles[k]).min(PI - LEAST_ANGLE)))
-        .collect()
+    let scaled = |t: usize, v: VertexId, angle: f64| {
+        let least = if t < sheet.real { LEAST_ANGLE } else { LEAST_FILLER };
+        (angle.max(LEAST_ANGLE) * factor(t, v)).clamp(least, PI - least)
+    };
+    each().map(|(t, (c, angles))| std::array::from_fn(|k| scaled(t, c[k], angles[k]))).collect()
 }
 
 #[cfg(test)]
@@ -263,20 +277,19 @@ mod tests {
 
     /// A fan of n triangles round one inner vertex, with corner angles made by
     /// the tip of a cone of total angle `total`.
-    fn cone(n: usize, total: f64) -> (Vec<[VertexId; 3]>, Vec<[f64; 3]>, Vec<bool>) {
+    fn cone(n: usize, total: f64) -> Sheet {
         let v = VertexId::new;
         let triangles = (0..n).map(|i| [v(0), v(1 + i), v(1 + (i + 1) % n)]).collect();
         let tip = total / n as f64;
         let angles = vec![[tip, (PI - tip) / 2.0, (PI - tip) / 2.0]; n];
-        let boundary = (0..=n).map(|i| i > 0).collect();
-        (triangles, angles, boundary)
+        let rim = (0..=n).map(|i| i > 0).collect();
+        Sheet { triangles, real: n, angles, rim }
     }
 
     #[test]
     fn a_cone_opens_to_equal_slices() {
         for (n, total) in [(5, 4.0), (6, 5.5), (8, 8.0)] {
-            let (triangles, angles, boundary) = cone(n, total);
-            let flat = flatten(&triangles, &angles, &boundary).unwrap();
+            let flat = flatten(&cone(n, total)).unwrap();
             for angle in &flat.angles {
                 assert!((angle[0] - TAU / n as f64).abs() < 1e-9, "{angle:?}");
                 assert!((angle[1] - angle[2]).abs() < 1e-9, "{angle:?}");
@@ -286,9 +299,9 @@ mod tests {
 
     #[test]
     fn a_flat_fan_stays_as_it_is() {
-        let (triangles, angles, boundary) = cone(7, TAU);
-        let flat = flatten(&triangles, &angles, &boundary).unwrap();
-        for (found, given) in flat.angles.iter().zip(&angles) {
+        let fan = cone(7, TAU);
+        let flat = flatten(&fan).unwrap();
+        for (found, given) in flat.angles.iter().zip(&fan.angles) {
             for k in 0..3 {
                 assert!((found[k] - given[k]).abs() < 1e-12);
             }
@@ -298,14 +311,14 @@ mod tests {
     /// The constraint gradients against central differences of the constraints.
     #[test]
     fn gradients_agree_with_finite_differences() {
-        let (triangles, mut angles, boundary) = cone(5, 4.4);
-        angles[2] = [0.7, 1.3, 0.9];
-        let solver = AbfSolver::new(&triangles, &angles, &boundary).unwrap();
+        let mut fan = cone(5, 4.4);
+        fan.angles[2] = [0.7, 1.3, 0.9];
+        let solver = AbfSolver::new(&fan).unwrap();
         let exact = solver.element(2).b;
         let h = 1e-6;
         for k in 0..3 {
             let values = [h, -h].map(|h| {
-                let mut moved = AbfSolver::new(&triangles, &angles, &boundary).unwrap();
+                let mut moved = AbfSolver::new(&fan).unwrap();
                 moved.angles[2][k] += h;
                 moved.element(2).c
             });

@@ -7,93 +7,87 @@
 //! map (Lévy, Petitjean, Ray, Maillot 2002).
 
 use super::ChartError;
+use super::sheet::Sheet;
 use crate::ids::{Id, VertexId};
-use crate::linalg::{SpdSolver, block_entries};
+use crate::linalg::{Cholesky, LowerPattern};
 use nalgebra::{Complex, Point2};
 
-/// Places the vertices so that triangles have the given angles, radians.
+/// Places the vertices of a sheet so that its triangles have the given angles, radians.
 ///
-/// `pins` are two vertices and the distance to put between them; they fix
+/// `pins` are two vertices and `distance` the distance to put between them; they fix
 /// position, turn and size. Triangles come out counter-clockwise.
 ///
 /// # Errors
-/// [`ChartError::Linear`] when the mesh is not connected or degenerate.
+/// [`ChartError::Linear`] when the sheet is not connected or degenerate.
 pub fn layout(
-    vertex_count: usize,
-    triangles: &[[VertexId; 3]],
+    sheet: &Sheet,
     angles: &[[f64; 3]],
     pins: [VertexId; 2],
     distance: f64,
 ) -> Result<Vec<Point2<f64>>, ChartError> {
-    let fixed = [(pins[0].index(), [0.0, 0.0]), (pins[1].index(), [distance, 0.0])];
-    let mut unknown = vec![None; vertex_count];
-    let mut count = 0;
-    for (v, slot) in unknown.iter_mut().enumerate() {
-        if fixed.iter().all(|&(pin, _)| pin != v) {
-            *slot = Some(count);
-            count += 2;
-        }
-    }
-    let rows = |triangle: &[VertexId; 3]| -> [Option<usize>; 6] {
-        let first = triangle.map(|v| unknown[v.index()]);
-        std::array::from_fn(|k| first[k / 2].map(|row| row + k % 2))
+    let [zero, one] = pins.map(Id::index);
+    let mut flat = vec![Complex::from(0.0); sheet.rim.len()];
+    flat[one] = distance.into();
+    // The unknowns are the other vertices, in order.
+    let unknown = |v: VertexId| {
+        let v = v.index();
+        let pins_before = usize::from(v > zero) + usize::from(v > one && one != zero);
+        (v != zero && v != one).then(|| v - pins_before)
     };
-    let mut entries = Vec::with_capacity(21 * triangles.len());
-    let mut values = Vec::with_capacity(21 * triangles.len());
-    let mut x = vec![0.0; count];
-    for (triangle, angles) in triangles.iter().zip(angles) {
-        let rows = rows(triangle);
+    let count = flat.len() - if zero == one { 1 } else { 2 };
+    let pairs = sheet.triangles.iter().flat_map(|t| {
+        let corners = t.map(unknown);
+        (0..3).filter_map(move |k| corners[k].zip(corners[(k + 1) % 3]))
+    });
+    let pattern = LowerPattern::new(count, pairs)?;
+    let mut values = vec![Complex::from(0.0); pattern.entries()];
+    let mut x = vec![Complex::from(0.0); count];
+    for (t, (triangle, angles)) in sheet.triangles.iter().zip(angles).enumerate() {
+        let weight = if t < sheet.real { 1.0 } else { FILLER_WEIGHT };
         let equation = shape_equation(angles);
-        let at: [f64; 6] = std::array::from_fn(|k| {
-            let v = triangle[k / 2].index();
-            fixed.iter().find(|(pin, _)| *pin == v).map_or(0.0, |(_, p)| p[k % 2])
-        });
-        let known: [f64; 2] = std::array::from_fn(|i| (0..6).map(|k| equation[i][k] * at[k]).sum());
-        for (row, k) in rows.iter().zip(0..6) {
-            if let Some(row) = *row {
-                x[row] -= equation[0][k] * known[0] + equation[1][k] * known[1];
-            }
-        }
-        for (i, j) in block_entries(6) {
-            if let (Some(row), Some(column)) = (rows[i], rows[j]) {
-                entries.push((row, column));
-                values.push(equation[0][i] * equation[0][j] + equation[1][i] * equation[1][j]);
+        for (v, c) in triangle.iter().zip(equation) {
+            let Some(row) = unknown(*v) else { continue };
+            for (v, d) in triangle.iter().zip(equation) {
+                let value = c.conj() * d * weight;
+                match unknown(*v) {
+                    Some(column) if column <= row => values[pattern.position(row, column)] += value,
+                    Some(_) => {}
+                    None => x[row] -= value * flat[v.index()],
+                }
             }
         }
     }
     if count > 0 {
-        let mut solver = SpdSolver::new(count, &entries)?;
+        let mut solver = Cholesky::new(pattern)?;
         solver.factor(&values)?;
         solver.solve(&mut x);
     }
-    Ok((0..vertex_count)
-        .map(|v| match unknown[v] {
-            Some(row) => Point2::new(x[row], x[row + 1]),
-            None => fixed
-                .iter()
-                .find(|(pin, _)| *pin == v)
-                .map_or_else(Point2::origin, |(_, p)| Point2::new(p[0], p[1])),
-        })
-        .collect())
+    for (v, z) in flat.iter_mut().enumerate() {
+        if let Some(row) = unknown(VertexId::new(v)) {
+            *z = x[row];
+        }
+    }
+    Ok(flat.iter().map(|z| Point2::new(z.re, z.im)).collect())
 }
 
-/// The two real rows over (x₀, y₀, x₁, y₁, x₂, y₂) that vanish when the corners
-/// have the given angles: sin α₁ … written without division, so that slivers
-/// weigh as little as their area.
-fn shape_equation(angles: &[f64; 3]) -> [[f64; 6]; 2] {
+/// Weight of the triangles that fill a hole, against 1 of the surface's own: larger,
+/// and holes stiffen the surface; smaller, and rounding tells in the system.
+const FILLER_WEIGHT: f64 = 1e-3;
+
+/// The complex factors of the three corners whose sum vanishes when the corners have
+/// the given angles. The common factor makes the sum of squares the energy of Lévy and
+/// others, which does not depend on how the surface is divided into triangles.
+fn shape_equation(angles: &[f64; 3]) -> [Complex<f64>; 3] {
     // (z₂ − z₀) sin α₂ = (z₁ − z₀) sin α₁ e^{iα₀}
-    let [s1, s2] = [angles[1].sin(), angles[2].sin()];
+    let [s0, s1, s2] = angles.map(f64::sin);
     let turn = Complex::from_polar(s1, angles[0]);
-    let c = [turn - s2, -turn, Complex::new(s2, 0.0)];
-    let mut rows = [[0.0; 6]; 2];
-    for (k, c) in c.iter().enumerate() {
-        rows[0][2 * k] = c.re;
-        rows[0][2 * k + 1] = -c.im;
-        rows[1][2 * k] = c.im;
-        rows[1][2 * k + 1] = c.re;
-    }
-    rows
+    let scale = (s0 * s1 * s2).max(LEAST_SHAPE).sqrt().recip();
+    [turn - s2, -turn, Complex::from(s2)].map(|c| c * scale)
 }
+
+/// Least product of the three sines, so that the weight of a needle stays finite:
+/// larger, and needles lose their shape; smaller, and rounding tells in the system.
+const LEAST_SHAPE: f64 = 1e-6;
 
 #[cfg(test)]
 mod tests {
@@ -105,7 +99,13 @@ mod tests {
         let v = VertexId::new;
         let triangles = [[v(0), v(1), v(2)], [v(0), v(2), v(3)]];
         let angles = [[FRAC_PI_4, FRAC_PI_2, FRAC_PI_4], [FRAC_PI_4, FRAC_PI_4, FRAC_PI_2]];
-        let p = layout(4, &triangles, &angles, [v(0), v(1)], 2.0).unwrap();
+        let sheet = Sheet {
+            triangles: triangles.into(),
+            real: 2,
+            angles: angles.into(),
+            rim: vec![true; 4],
+        };
+        let p = layout(&sheet, &angles, [v(0), v(1)], 2.0).unwrap();
         let wanted = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)];
         for (p, (x, y)) in p.iter().zip(wanted) {
             assert!((p.x - x).abs() < 1e-12 && (p.y - y).abs() < 1e-12, "{p}");

@@ -1,12 +1,21 @@
 //! The map between a plane and the guiding surface (paper, section 4.1).
 
 mod abf;
+mod conformal;
+mod distortion;
+mod fill;
+mod holes;
 mod layout;
 mod planar;
+mod sheet;
 
 pub use abf::{Flattening, flatten};
+pub use conformal::{Conformal, Method, conformal};
+pub use distortion::{Distortion, Uneven};
+pub use fill::{Filling, fill};
 pub use layout::layout;
-pub use planar::{Distortion, PlanarChart};
+pub use planar::PlanarChart;
+pub use sheet::Sheet;
 
 use crate::linalg::LinalgError;
 use crate::surface::{Point3, Vector3};
@@ -22,6 +31,12 @@ pub trait Chart {
     /// The place of the surface that belongs to a point of the plane; `None`
     /// outside the chart.
     fn lift(&self, p: Point2<f64>) -> Option<SurfacePoint>;
+
+    /// Whether a strip of the plane, `half_width` mm to either side of the segment from
+    /// `a` to `b`, round at its ends, meets a hole inside the chart.
+    fn crosses_hole(&self, _a: Point2<f64>, _b: Point2<f64>, _half_width: f64) -> bool {
+        false
+    }
 }
 
 /// A place on the guiding surface.
@@ -53,3 +68,6 @@ pub enum ChartError {
     #[error("the surface could not be flattened: {0}. Remesh it without slivers")]
     Linear(#[from] LinalgError),
 }
+
+#[cfg(test)]
+mod tests;

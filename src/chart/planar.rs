@@ -1,56 +1,45 @@
-//! The chart of a disk: flattened by ABF++, scaled to the surface, and turned so
-//! that the plane's x runs as nearly as possible along the model's x.
+//! The chart of a disk, with holes or without: flattened, scaled to the surface, and
+//! turned so that the plane's x runs as nearly as possible along the model's x.
 
-use super::{Chart, ChartError, SurfacePoint, flatten, layout};
+use super::distortion::measure;
+use super::holes::Holes;
+use super::{Chart, ChartError, Conformal, Distortion, Method, Sheet, SurfacePoint, conformal};
 use crate::ids::{Id, IdVec, VertexId};
 use crate::surface::locate::PlanarLocator;
 use crate::surface::topology::Topology;
 use crate::surface::{Mesh, Point3, Vector3};
 use nalgebra::{Point2, Rotation2, Vector2};
 
-/// A disk-shaped mesh with its place in the plane.
+/// A mesh of one piece with its place in the plane.
 #[derive(Clone, Debug)]
 pub struct PlanarChart {
     mesh: Mesh,
     normals: IdVec<VertexId, Vector3>,
     flat: IdVec<VertexId, Point2<f64>>,
     locator: PlanarLocator,
+    holes: Holes,
     distortion: Distortion,
 }
 
-/// How much the plane differs from the surface.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Distortion {
-    /// Mean difference of triangle angles, radians.
-    pub mean_angle: f64,
-    /// Largest difference of a triangle angle, radians.
-    pub max_angle: f64,
-    /// Least and greatest length on the surface of a unit length in the plane,
-    /// over the triangles.
-    pub scale: [f64; 2],
-    /// Steps that the flattening took.
-    pub steps: usize,
-}
-
 impl PlanarChart {
-    /// Flattens a mesh of disk shape.
+    /// Flattens a mesh of one piece without handles. All borders but the longest are
+    /// holes: they are filled while the mesh is flattened, and stay out of the chart.
     ///
     /// # Errors
     /// [`ChartError`] when the angles do not settle or the result folds over.
-    pub fn new(mesh: Mesh, topology: &Topology) -> Result<Self, ChartError> {
-        let border: Vec<bool> = mesh.points.ids().map(|v| topology.is_border(v)).collect();
-        let surface = corner_angles(&mesh);
-        let flattening = flatten(&mesh.triangles, &surface, &border)?;
-        let pins = far_pair(&mesh, &border);
-        let distance = (mesh.points[pins[0]] - mesh.points[pins[1]]).norm();
-        let flat: IdVec<VertexId, _> =
-            layout(mesh.points.len(), &mesh.triangles, &flattening.angles, pins, distance)?.into();
-        refuse_folds(&mesh, &flat)?;
-        let flat = aligned(&mesh, flat);
-        let distortion = measure(&mesh, &surface, &flat, flattening.steps);
+    pub fn new(mesh: Mesh, topology: &Topology, method: Method) -> Result<Self, ChartError> {
+        let sheet = Sheet::new(&mesh, topology);
+        let Conformal { flat, method, fallback, steps } = conformal(&mesh, &sheet, method)?;
+        let flat = aligned(&mesh, &flat);
+        let holes = Holes::new(&flat, &sheet.triangles[sheet.real..]);
+        // Corners that fill a hole are of no more use.
+        let flat: IdVec<VertexId, _> = flat[..mesh.points.len()].to_vec().into();
+        let angles = &sheet.angles[..sheet.real];
+        let distortion =
+            Distortion { method, fallback, steps, ..measure(&mesh, topology, angles, &flat) };
         let normals = vertex_normals(&mesh);
         let locator = PlanarLocator::new(&flat, &mesh.triangles);
-        Ok(Self { mesh, normals, flat, locator, distortion })
+        Ok(Self { mesh, normals, flat, locator, holes, distortion })
     }
 
     /// The surface that is mapped.
@@ -64,8 +53,8 @@ impl PlanarChart {
     }
 
     /// How much the map distorts.
-    pub fn distortion(&self) -> Distortion {
-        self.distortion
+    pub fn distortion(&self) -> &Distortion {
+        &self.distortion
     }
 }
 
@@ -86,58 +75,20 @@ impl Chart for PlanarChart {
         }
         Some(SurfacePoint { position: position.into(), normal: normal.normalize() })
     }
-}
 
-/// The angle at each corner of each triangle, radians.
-fn corner_angles(mesh: &Mesh) -> Vec<[f64; 3]> {
-    mesh.triangles
-        .ids()
-        .map(|f| {
-            let p = mesh.corners(f);
-            std::array::from_fn(|k| (p[(k + 1) % 3] - p[k]).angle(&(p[(k + 2) % 3] - p[k])))
-        })
-        .collect()
-}
-
-/// Two rim vertices far apart: the farthest from the first, and the farthest from that.
-fn far_pair(mesh: &Mesh, border: &[bool]) -> [VertexId; 2] {
-    let rim = || mesh.points.ids().filter(|v| border[v.index()]);
-    let farthest = |from: VertexId| {
-        let distance = |v: &VertexId| (mesh.points[*v] - mesh.points[from]).norm_squared();
-        rim().max_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(from)
-    };
-    let first = farthest(rim().next().unwrap_or(VertexId::new(0)));
-    [first, farthest(first)]
-}
-
-fn flat_area(mesh: &Mesh, flat: &IdVec<VertexId, Point2<f64>>, f: crate::ids::FaceId) -> f64 {
-    let [a, b, c] = mesh.triangles[f].map(|v| flat[v]);
-    (b - a).perp(&(c - a)) / 2.0
-}
-
-fn refuse_folds(mesh: &Mesh, flat: &IdVec<VertexId, Point2<f64>>) -> Result<(), ChartError> {
-    let mut folded = mesh.triangles.ids().filter(|&f| {
-        let area = flat_area(mesh, flat, f);
-        area.is_nan() || area <= 0.0
-    });
-    match folded.next() {
-        None => Ok(()),
-        Some(first) => Err(ChartError::Folded {
-            count: 1 + folded.count(),
-            total: mesh.triangles.len(),
-            first,
-        }),
+    fn crosses_hole(&self, a: Point2<f64>, b: Point2<f64>, half_width: f64) -> bool {
+        self.holes.meet(a, b, half_width)
     }
 }
 
 /// Scales to the mean edge length of the surface, centres on the surface's area,
 /// and turns the plane's axes to the model's x and y as well as they go.
-fn aligned(mesh: &Mesh, flat: IdVec<VertexId, Point2<f64>>) -> IdVec<VertexId, Point2<f64>> {
+fn aligned(mesh: &Mesh, flat: &[Point2<f64>]) -> Vec<Point2<f64>> {
     let (mut long, mut short) = (0.0, 0.0);
     let (mut area, mut middle, mut center) = (0.0, Vector2::zeros(), Vector3::zeros());
     for f in mesh.triangles.ids() {
         let space = mesh.corners(f);
-        let plane = mesh.triangles[f].map(|v| flat[v]);
+        let plane = mesh.triangles[f].map(|v| flat[v.index()]);
         for k in 0..3 {
             long += (space[(k + 1) % 3] - space[k]).norm();
             short += (plane[(k + 1) % 3] - plane[k]).norm();
@@ -152,7 +103,7 @@ fn aligned(mesh: &Mesh, flat: IdVec<VertexId, Point2<f64>>) -> IdVec<VertexId, P
     let (middle, center) = (middle / area, Point3::from(center / area));
     let (mut dot, mut cross) = (0.0, 0.0);
     for v in mesh.points.ids() {
-        let p = flat[v].coords - middle;
+        let p = flat[v.index()].coords - middle;
         let q = (mesh.points[v] - center).xy();
         dot += p.dot(&q);
         cross += p.perp(&q);
@@ -160,28 +111,6 @@ fn aligned(mesh: &Mesh, flat: IdVec<VertexId, Point2<f64>>) -> IdVec<VertexId, P
     let turn = Rotation2::new(cross.atan2(dot));
     let scale = long / short;
     flat.iter().map(|p| (turn * (p.coords - middle) * scale).into()).collect()
-}
-
-fn measure(
-    mesh: &Mesh,
-    surface: &[[f64; 3]],
-    flat: &IdVec<VertexId, Point2<f64>>,
-    steps: usize,
-) -> Distortion {
-    let (mut sum, mut max_angle) = (0.0, 0.0f64);
-    let mut scale = [f64::INFINITY, 0.0f64];
-    for (f, angles) in mesh.triangles.ids().zip(surface) {
-        let p = mesh.triangles[f].map(|v| flat[v]);
-        for k in 0..3 {
-            let planar = (p[(k + 1) % 3] - p[k]).angle(&(p[(k + 2) % 3] - p[k]));
-            sum += (planar - angles[k]).abs();
-            max_angle = max_angle.max((planar - angles[k]).abs());
-        }
-        let ratio = (mesh.area_vector(f).norm() / 2.0 / flat_area(mesh, flat, f)).sqrt();
-        scale = [scale[0].min(ratio), scale[1].max(ratio)];
-    }
-    let mean_angle = sum / (3 * surface.len()) as f64;
-    Distortion { mean_angle, max_angle, scale, steps }
 }
 
 /// Unit normals at the vertices, weighted by triangle area.
@@ -206,7 +135,7 @@ mod tests {
     fn chart(name: &str) -> PlanarChart {
         let mesh = sample(name).unwrap();
         let topology = require_disk(&mesh).unwrap();
-        PlanarChart::new(mesh, &topology).unwrap()
+        PlanarChart::new(mesh, &topology, Method::Abf).unwrap()
     }
 
     #[test]
@@ -222,7 +151,8 @@ mod tests {
     /// A cylinder is developable: its chart is its unrolled self, all lengths kept.
     #[test]
     fn a_vault_unrolls() {
-        let d = chart("vault").distortion();
+        let chart = chart("vault");
+        let d = chart.distortion();
         assert!(d.scale[1] / d.scale[0] < 1.01, "{d:?}");
     }
 

@@ -6,6 +6,7 @@ use super::summary::summary;
 use super::terminal::{Terminal, print};
 use crate::design::{Design, DesignError, Settings};
 use crate::documents;
+use crate::frame::guide::Guide;
 use crate::pipeline::{self, Model, Step};
 use crate::write::folder::{FolderError, OutputFolder};
 use std::path::{Path, PathBuf};
@@ -108,6 +109,12 @@ fn warnings(design: &Design, model: &Model) -> Vec<String> {
              suit, or leave out --unit",
             design.rod, model.fit.edge, model.fit.rise
         ));
+    }
+    if let Guide::Chart { distortion, .. } = &model.guide {
+        warnings.extend(distortion.fallback.clone());
+        warnings.extend(distortion.uneven().map(|uneven| {
+            format!("{uneven}: cut the surface (--cut), or use its own polygons (--pattern mesh)")
+        }));
     }
     let frame = &model.formed.frame;
     if frame.supports.len() < 3 {

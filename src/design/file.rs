@@ -59,6 +59,7 @@ impl Design {
         match &self.tiles {
             Tiles::Pattern(pattern) => {
                 file.set("pattern", pattern.name);
+                file.set("chart", choice(self.chart));
                 match self.unit {
                     Some(unit) => file.set("unit", mm(unit)),
                     None => {

@@ -10,6 +10,7 @@ mod settings;
 
 pub use settings::Settings;
 
+use crate::chart::Method;
 use crate::frame::layer::Layering;
 use crate::pattern::Pattern;
 use crate::sheets::{Paper, PaperUnits};
@@ -107,6 +108,8 @@ pub struct Design {
     pub surface_file: PathBuf,
     /// What the units are made on.
     pub tiles: Tiles,
+    /// How the surface is flattened.
+    pub chart: Method,
     /// Only what lies above this plane.
     pub cut: Option<CutPlane>,
     /// Only this piece.

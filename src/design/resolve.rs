@@ -25,6 +25,7 @@ impl Settings {
         Ok(Design {
             surface_file: beside.unwrap_or_else(|| surface.clone()),
             surface,
+            chart: self.chart.unwrap_or_default(),
             cut: self.cut,
             component: self.component,
             rod,
@@ -77,17 +78,18 @@ impl Settings {
         let pattern = self.pattern.is_some().then_some("pattern");
         let up = self.up.is_some().then_some("up");
         let component = self.component.is_some().then_some("component");
+        let chart = self.chart.is_some().then_some("chart");
         let (idle, why) = match tiles {
             Tiles::Pattern(_) => (
                 vec![self.warp.is_some().then_some("warp")],
                 "it is for spheres, as in sphere:aI/2",
             ),
             Tiles::Mesh => (
-                vec![self.warp.is_some().then_some("warp"), unit, origin, rotate],
+                vec![self.warp.is_some().then_some("warp"), unit, origin, rotate, chart],
                 "the polygons of the mesh are the units; --span sets their size",
             ),
             Tiles::Sphere(_) => (
-                vec![pattern, unit, origin, up, component],
+                vec![pattern, unit, origin, up, component, chart],
                 "the notation of the sphere says where its units are; --span sets their size",
             ),
         };

@@ -1,6 +1,7 @@
 //! The settings as given, on the command line or in design.toml.
 
 use super::{DesignError, Part};
+use crate::chart::Method;
 use crate::frame::layer::Layering;
 use crate::sheets::{Paper, PaperUnits};
 use crate::surface::component::Component;
@@ -29,6 +30,10 @@ pub struct Settings {
     /// Pattern, by vertex configuration, or mesh for the surface's own polygons [default: 4.4.4.4]
     #[arg(long, value_name = "NAME")]
     pub pattern: Option<String>,
+
+    /// How the surface is flattened [default: abf]
+    #[arg(long, value_enum)]
+    pub chart: Option<Method>,
 
     /// Keep what lies above this height, as z=120mm or z=40% [default: the whole surface]
     #[arg(long, value_name = "z=HEIGHT", allow_hyphen_values = true)]
@@ -123,6 +128,7 @@ impl Settings {
             rod: self.rod.or(other.rod),
             span: self.span.or(other.span),
             pattern: self.pattern.or(other.pattern),
+            chart: self.chart.or(other.chart),
             cut: self.cut.or(other.cut),
             component: self.component.or(other.component),
             warp: self.warp.or(other.warp),

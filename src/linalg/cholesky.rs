@@ -1,80 +1,92 @@
 //! Sparse Cholesky factorisation that keeps its symbolic part.
 
-use super::LinalgError;
+use super::{LinalgError, LowerPattern};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot;
 use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::perm::PermRef;
+use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
-use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::traits::ComplexField;
 use faer::{Conj, MatMut, Par, Side, Spec};
+use nalgebra::Matrix2;
 
-/// Solver for A x = b with A symmetric positive definite and of fixed pattern.
+/// Factors A = L Lᴴ with A Hermitian, positive definite and of fixed pattern; `T` is
+/// `f64` or a complex number of two.
 ///
 /// One fill-reducing order (AMD) and one symbolic factorisation serve all values.
 /// It runs on one thread: faer's threads make systems of this kind slower.
-pub struct SpdSolver {
-    size: usize,
-    pattern: SymbolicSparseColMat<usize>,
-    order: Argsort<usize>,
-    entries: usize,
-    symbolic: SymbolicCholesky<usize>,
-    factor: Vec<f64>,
+pub struct Cholesky<T: ComplexField> {
+    pattern: LowerPattern,
+    symbolic: SymbolicCholesky<u32>,
+    factor: Vec<T>,
     scratch: MemBuffer,
 }
 
-/// The pairs of positions in a block of `k` unknowns that its lower triangle
-/// holds, in the order in which [`SpdSolver`] takes their values.
-pub fn block_entries(k: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..k).flat_map(move |i| (0..=i).map(move |j| (i, j)))
-}
-
-impl SpdSolver {
-    /// Analyses the matrix of `size` unknowns with these `(row, column)` entries.
-    ///
-    /// Each pair of unknowns stands for both halves and is given once a block,
-    /// either way round; entries given several times are added up.
+impl<T: ComplexField> Cholesky<T> {
+    /// Analyses a matrix of this pattern.
     ///
     /// # Errors
     /// [`LinalgError::TooLarge`] when memory does not suffice.
-    pub fn new(size: usize, entries: &[(usize, usize)]) -> Result<Self, LinalgError> {
-        let too_large = LinalgError::TooLarge { size };
-        let lower: Vec<Pair<usize, usize>> =
-            entries.iter().map(|&(i, j)| Pair { row: i.max(j), col: i.min(j) }).collect();
-        let (pattern, order) = SymbolicSparseColMat::try_new_from_indices(size, size, &lower)
-            .map_err(|_| too_large.clone())?;
+    pub fn new(pattern: LowerPattern) -> Result<Self, LinalgError> {
+        Self::ordered(pattern, SymmetricOrdering::Amd)
+    }
+
+    /// Analyses a matrix with two unknowns in place of each one of the pattern. The
+    /// order is sought on the pattern itself: four times less to look through.
+    ///
+    /// # Errors
+    /// [`LinalgError::TooLarge`] when memory does not suffice.
+    pub fn of_pairs(pattern: &LowerPattern) -> Result<Self, LinalgError> {
+        let order = amd_order(pattern)?;
+        let forward: Vec<u32> = order.iter().flat_map(|&i| [2 * i, 2 * i + 1]).collect();
+        let mut inverse = vec![0; forward.len()];
+        for (new, &old) in forward.iter().enumerate() {
+            inverse[old as usize] = new as u32;
+        }
+        let order = PermRef::new_checked(&forward, &inverse, forward.len());
+        Self::ordered(pattern.doubled()?, SymmetricOrdering::Custom(order))
+    }
+
+    fn ordered(
+        pattern: LowerPattern,
+        order: SymmetricOrdering<'_, u32>,
+    ) -> Result<Self, LinalgError> {
+        let too_large = LinalgError::TooLarge { size: pattern.size() };
         let symbolic = factorize_symbolic_cholesky(
-            pattern.as_ref(),
+            symbolic(&pattern),
             Side::Lower,
-            SymmetricOrdering::Amd,
+            order,
             CholeskySymbolicParams::default(),
         )
         .map_err(|_| too_large.clone())?;
-        let numeric = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
-        let solve = symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
-        let scratch = MemBuffer::try_new(numeric.or(solve)).map_err(|_| too_large)?;
-        let factor = vec![0.0; symbolic.len_val()];
-        Ok(Self { size, pattern, order, entries: entries.len(), symbolic, factor, scratch })
+        let numeric = symbolic.factorize_numeric_llt_scratch::<T>(Par::Seq, Spec::default());
+        let solve = symbolic.solve_in_place_scratch::<T>(1, Par::Seq);
+        let scratch = MemBuffer::try_new(numeric.or(solve)).map_err(|_| too_large.clone())?;
+        let mut factor = Vec::new();
+        factor.try_reserve_exact(symbolic.len_val()).map_err(|_| too_large)?;
+        factor.resize(symbolic.len_val(), T::zero_impl());
+        Ok(Self { pattern, symbolic, factor, scratch })
     }
 
-    /// Factors the matrix with these values, in the order of the entries of [`SpdSolver::new`].
+    /// Factors the matrix with these values, one for each entry of the pattern.
     ///
     /// # Panics
     /// When the number of values differs from the number of entries.
     ///
     /// # Errors
     /// [`LinalgError::NotPositiveDefinite`] with the row at which the factorisation stopped.
-    pub fn factor(&mut self, values: &[f64]) -> Result<(), LinalgError> {
-        assert_eq!(values.len(), self.entries, "one value an entry");
-        let size = self.size;
-        let matrix = SparseColMat::new_from_argsort(self.pattern.clone(), &self.order, values)
-            .map_err(|_| LinalgError::TooLarge { size })?;
+    pub fn factor(&mut self, values: &[T]) -> Result<(), LinalgError> {
+        assert_eq!(values.len(), self.pattern.entries(), "one value an entry");
+        let size = self.pattern.size();
         self.symbolic
             .factorize_numeric_llt(
                 &mut self.factor,
-                matrix.as_ref(),
+                SparseColMatRef::new(symbolic(&self.pattern), values),
                 Side::Lower,
                 LltRegularization::default(),
                 Par::Seq,
@@ -92,8 +104,8 @@ impl SpdSolver {
     ///
     /// # Panics
     /// When the length differs from the number of unknowns.
-    pub fn solve(&mut self, rhs: &mut [f64]) {
-        let x = MatMut::from_column_major_slice_mut(rhs, self.size, 1);
+    pub fn solve(&mut self, rhs: &mut [T]) {
+        let x = MatMut::from_column_major_slice_mut(rhs, self.pattern.size(), 1);
         let stack = MemStack::new(&mut self.scratch);
         LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
             Conj::No,
@@ -101,6 +113,140 @@ impl SpdSolver {
             Par::Seq,
             stack,
         );
+    }
+}
+
+fn symbolic(pattern: &LowerPattern) -> SymbolicSparseColMatRef<'_, u32> {
+    let size = pattern.size();
+    SymbolicSparseColMatRef::new_checked(size, size, &pattern.starts, None, &pattern.rows)
+}
+
+/// The unknowns in an order of little fill.
+fn amd_order(pattern: &LowerPattern) -> Result<Vec<u32>, LinalgError> {
+    let size = pattern.size();
+    let too_large = || LinalgError::TooLarge { size };
+    let (mut forward, mut inverse) = (vec![0; size], vec![0; size]);
+    let need = amd::order_maybe_unsorted_scratch::<u32>(size, pattern.entries());
+    let mut memory = MemBuffer::try_new(need).map_err(|_| too_large())?;
+    amd::order_maybe_unsorted(
+        &mut forward,
+        &mut inverse,
+        symbolic(pattern),
+        amd::Control::default(),
+        MemStack::new(&mut memory),
+    )
+    .map_err(|_| too_large())?;
+    Ok(forward)
+}
+
+/// Solver for A x = b with A real, given as a list of entries.
+pub struct SpdSolver {
+    cholesky: Cholesky<f64>,
+    /// Where the value of each entry goes.
+    positions: Vec<u32>,
+    values: Vec<f64>,
+}
+
+/// The pairs of positions in a block of `k` unknowns that its lower triangle
+/// holds, in the order in which [`SpdSolver`] takes their values.
+pub fn block_entries(k: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..k).flat_map(move |i| (0..=i).map(move |j| (i, j)))
+}
+
+impl SpdSolver {
+    /// Analyses the matrix of `size` unknowns with these `(row, column)` entries.
+    ///
+    /// Each pair of unknowns stands for both halves and is given once a block,
+    /// either way round; entries given several times are added up.
+    ///
+    /// # Errors
+    /// [`LinalgError::TooLarge`] when memory does not suffice.
+    pub fn new(size: usize, entries: &[(usize, usize)]) -> Result<Self, LinalgError> {
+        let pattern = LowerPattern::new(size, entries.iter().copied())?;
+        let position = |&(i, j): &(usize, usize)| pattern.position(i.max(j), i.min(j)) as u32;
+        let positions = entries.iter().map(position).collect();
+        let values = vec![0.0; pattern.entries()];
+        Ok(Self { cholesky: Cholesky::new(pattern)?, positions, values })
+    }
+
+    /// Factors the matrix with these values, in the order of the entries of [`SpdSolver::new`].
+    ///
+    /// # Panics
+    /// When the number of values differs from the number of entries.
+    ///
+    /// # Errors
+    /// [`LinalgError::NotPositiveDefinite`] with the row at which the factorisation stopped.
+    pub fn factor(&mut self, values: &[f64]) -> Result<(), LinalgError> {
+        assert_eq!(values.len(), self.positions.len(), "one value an entry");
+        self.values.fill(0.0);
+        for (&at, value) in self.positions.iter().zip(values) {
+            self.values[at as usize] += value;
+        }
+        self.cholesky.factor(&self.values)
+    }
+
+    /// Replaces the right-hand side by the solution of the matrix factored last.
+    ///
+    /// # Panics
+    /// When the length differs from the number of unknowns.
+    pub fn solve(&mut self, rhs: &mut [f64]) {
+        self.cholesky.solve(rhs);
+    }
+}
+
+/// Solver for A x = b with A real and made of 2 × 2 blocks: two unknowns a node, side
+/// by side. Blocks are added where they belong, without a list.
+pub struct PairSolver {
+    nodes: LowerPattern,
+    cholesky: Cholesky<f64>,
+    values: Vec<f64>,
+}
+
+impl PairSolver {
+    /// Analyses the matrix with a block for each entry of the pattern.
+    ///
+    /// # Errors
+    /// [`LinalgError::TooLarge`] when memory does not suffice.
+    pub fn new(nodes: LowerPattern) -> Result<Self, LinalgError> {
+        let cholesky = Cholesky::of_pairs(&nodes)?;
+        let values = vec![0.0; cholesky.pattern.entries()];
+        Ok(Self { nodes, cholesky, values })
+    }
+
+    /// Sets all blocks to zero.
+    pub fn clear(&mut self) {
+        self.values.fill(0.0);
+    }
+
+    /// Adds a block between two nodes, which stands for its mirror image too.
+    ///
+    /// # Panics
+    /// When the pair of nodes is not in the pattern.
+    pub fn add(&mut self, row: usize, column: usize, block: Matrix2<f64>) {
+        let block = if row < column { block.transpose() } else { block };
+        let at = self.nodes.doubled_at(row.max(column), row.min(column));
+        for half in 0..2 {
+            self.values[at[half]] += block[(1, half)];
+            if half == 0 || row != column {
+                self.values[at[half] - 1] += block[(0, half)];
+            }
+        }
+    }
+
+    /// Factors the sum of the blocks.
+    ///
+    /// # Errors
+    /// [`LinalgError::NotPositiveDefinite`] with the row at which the factorisation stopped.
+    pub fn factor(&mut self) -> Result<(), LinalgError> {
+        self.cholesky.factor(&self.values)
+    }
+
+    /// Replaces the right-hand side by the solution of the matrix factored last.
+    ///
+    /// # Panics
+    /// When the length is not twice the number of nodes.
+    pub fn solve(&mut self, rhs: &mut [f64]) {
+        self.cholesky.solve(rhs);
     }
 }
 

@@ -4,8 +4,10 @@
 //! pattern is analysed once; values are filled in and factored as often as needed.
 
 mod cholesky;
+mod pattern;
 
-pub use cholesky::{SpdSolver, block_entries};
+pub use cholesky::{Cholesky, PairSolver, SpdSolver, block_entries};
+pub use pattern::LowerPattern;
 
 use thiserror::Error;
 

@@ -82,7 +82,7 @@ fn contact(axes: &IdVec<RodId, Axis>, joint: &Joint) -> Contact {
 
 /// A real frame: 3 mm rods on a sample surface.
 pub(crate) fn on_sample(surface: &str, pattern: &str) -> Frame {
-    use crate::chart::PlanarChart;
+    use crate::chart::{Method, PlanarChart};
     use crate::frame::canvas::PlaneCanvas;
     use crate::frame::fit::fit;
     use crate::frame::form::{FormSettings, form};
@@ -90,7 +90,7 @@ pub(crate) fn on_sample(surface: &str, pattern: &str) -> Frame {
     let mesh = sample(surface).unwrap();
     let surface_low = mesh.bounds().unwrap()[0].z;
     let topology = require_disk(&mesh).unwrap();
-    let chart = PlanarChart::new(mesh, &topology).unwrap();
+    let chart = PlanarChart::new(mesh, &topology, Method::Abf).unwrap();
     let pattern = crate::pattern::Pattern::named(pattern).unwrap();
     let (turn, diameter) = (pattern.turn.to_radians(), 3.0);
     let placement =

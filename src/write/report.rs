@@ -1,6 +1,7 @@
 //! report.json: what was measured on the way and of the result. Lengths in mm,
 //! angles in degrees. It holds no times, so that the same run gives the same bytes.
 
+use crate::chart::Method;
 use crate::frame::Frame;
 use crate::frame::close::Closing;
 use crate::frame::fit::{Fit, FitBy};
@@ -53,10 +54,17 @@ pub enum SurfaceKind {
     /// A mesh with a chart.
     Chart {
         triangles: usize,
+        /// What flattened it.
+        method: Method,
+        /// Why it was not what was asked for.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        fallback: Option<String>,
         /// Mean and largest change of a triangle angle.
         angle_distortion: [f64; 2],
         /// Least and greatest length on the surface of a unit length in the plane.
         scale: [f64; 2],
+        /// The same at a twentieth of the area from either end.
+        scale_most: [f64; 2],
         /// Steps of the flattening.
         flattening_steps: usize,
     },
@@ -100,8 +108,11 @@ pub fn surface(guide: &Guide, notes: &[String]) -> Surface {
     let kind = match guide {
         Guide::Chart { mesh, distortion: d } => SurfaceKind::Chart {
             triangles: mesh.triangles.len(),
+            method: d.method,
+            fallback: d.fallback.clone(),
             angle_distortion: [d.mean_angle, d.max_angle].map(f64::to_degrees),
             scale: d.scale,
+            scale_most: d.scale_most,
             flattening_steps: d.steps,
         },
         Guide::Mesh(mesh) => SurfaceKind::Mesh { polygons: mesh.faces.len() },

@@ -3,12 +3,11 @@
 //!
 //! A tile's flat picture is the plane through the middle of its corners that faces along
 //! its area vector, in mm. Rods run through the middles of the edges, turned from the way
-//! to the tile's middle. In a tile that is not regular there is a choice: to turn them
-//! all by the same angle; or to turn them as in a regular polygon and then to stretch
-//! the whole with the tile, by the affine map that brings the polygon nearest to it; or
-//! something between. The first suits tiles of uneven sides, the second stretched and
-//! skewed ones, in which it keeps every unit a circuit. Each tile takes what leaves its
-//! rods most room.
+//! to the tile's middle, all by the same angle. In stretched and skewed tiles such rods
+//! may form no circuit, or one with a side of next to nothing. Then they are turned as in
+//! a regular polygon and stretched with the tile, half-way or all the way, by the affine
+//! map that brings the polygon nearest to it; that keeps every unit a circuit, at the
+//! price of flatter crossings.
 
 use super::{Canvas, Sizing};
 use crate::chart::SurfacePoint;
@@ -56,7 +55,7 @@ impl Frame {
         let mut frame =
             Self { middle, normal, x, y: normal.cross(&x), stretch: [Matrix2::identity(); 2] };
         let flat: Vec<Point2<f64>> = corners.iter().map(|&p| frame.flat(p)).collect();
-        frame.stretch = roomiest(&flat);
+        frame.stretch = evening(&flat);
         frame
     }
 
@@ -77,46 +76,49 @@ fn rods(middles: &[Point2<f64>], stretch: &[Matrix2<f64>; 2], turn: f64) -> Vec<
     middles.iter().map(line).collect()
 }
 
-/// Parts of a tile's stretch that are tried, as exponents.
+/// Parts of a tile's stretch that are tried in turn, as exponents.
 const PARTS: [f64; 3] = [0.0, 0.5, 1.0];
 
-/// The turn, radians, at which the room in a tile is measured. The order of rooms hardly
-/// depends on it.
+/// The turn, radians, at which units are compared. Which is the most even hardly depends
+/// on it.
 const TRIAL_TURN: f64 = 0.35;
 
-/// The part of its stretch, there and back, that leaves the rods of a tile most room.
-fn roomiest(corners: &[Point2<f64>]) -> [Matrix2<f64>; 2] {
+/// A unit whose shortest side is this part of its mean side will do. More, and tiles are
+/// stretched that need not be; less, and there is no room beside some contacts.
+const EVEN: f64 = 0.3;
+
+/// The least part of a tile's stretch, there and back, that makes an even unit; or the
+/// one that makes the most even.
+fn evening(corners: &[Point2<f64>]) -> [Matrix2<f64>; 2] {
     let n = corners.len();
     let middles: Vec<Point2<f64>> =
         (0..n).map(|i| nalgebra::center(&corners[i], &corners[(i + 1) % n])).collect();
-    let room = |stretch: &[Matrix2<f64>; 2]| {
-        let unit = FlatUnit::new(&rods(&middles, stretch, TRIAL_TURN));
-        let least = |u: FlatUnit| {
-            let side = |i: usize| (u.contacts[i] - u.contacts[(i + 1) % n]).norm();
-            (0..n).map(side).fold(f64::INFINITY, f64::min)
-        };
-        unit.map_or(0.0, least)
+    let evenness = |stretch: &[Matrix2<f64>; 2]| {
+        let Some(unit) = FlatUnit::new(&rods(&middles, stretch, TRIAL_TURN)) else { return 0.0 };
+        let side = |i: usize| (unit.contacts[i] - unit.contacts[(i + 1) % n]).norm();
+        let least = (0..n).map(side).fold(f64::INFINITY, f64::min);
+        least * n as f64 / (0..n).map(side).sum::<f64>()
     };
-    let plain = [Matrix2::identity(); 2];
+    let mut best = (-1.0, [Matrix2::identity(); 2]);
     let svd = stretch(corners).svd(true, true);
-    let (Some(u), Some(v)) = (svd.u, svd.v_t) else { return plain };
-    let mut best = (room(&plain), plain);
+    let (Some(u), Some(v)) = (svd.u, svd.v_t) else { return best.1 };
     for part in PARTS {
-        let there = u * Matrix2::from_diagonal(&svd.singular_values.map(|s| s.powf(part))) * v;
+        let scales = svd.singular_values.map(|s| s.powf(part));
+        let there =
+            if part == 0.0 { Matrix2::identity() } else { u * Matrix2::from_diagonal(&scales) * v };
         let Some(back) = there.try_inverse().filter(|_| there.determinant() > 0.0) else {
             continue;
         };
-        let found = room(&[there, back]);
-        if found > best.0 * MORE {
+        let found = evenness(&[there, back]);
+        if found > best.0 {
             best = (found, [there, back]);
+        }
+        if found >= EVEN {
+            break;
         }
     }
     best.1
 }
-
-/// Room must grow by this factor for a tile to be treated otherwise, so that rounding
-/// does not decide in tiles that are regular.
-const MORE: f64 = 1.0 + 1e-6;
 
 /// The linear map that brings the corners of a regular polygon nearest to these, which
 /// are given from their middle. For unit vectors p at equal angles Σ p pᵀ = n/2.
@@ -271,10 +273,9 @@ mod tests {
                     assert!((skew * p - q).norm() < 1e-9, "{sides} {turn}");
                 }
             }
-            // What is chosen leaves at least as much room as the plain turn.
-            let [there, back] = roomiest(&skewed);
+            let [there, back] = evening(&skewed);
             assert!((there * back - Matrix2::identity()).norm() < 1e-9);
-            assert_eq!(roomiest(&regular), [Matrix2::identity(); 2]);
+            assert_eq!(evening(&regular), [Matrix2::identity(); 2]);
         }
     }
 

@@ -12,6 +12,10 @@ use std::f64::consts::FRAC_PI_2;
 /// keep a little inside the surface; part of the tile's radius.
 const MARGIN: f64 = 0.04;
 
+/// Rods keep this far from holes, as part of the tile edge: about their own thickness
+/// and overhang at a good fit.
+const HOLE_MARGIN: f64 = 0.08;
+
 /// Most tiles that are laid out: some gigabytes. More can only be a slip of a unit.
 pub const MOST_UNITS: usize = 1_000_000;
 
@@ -68,6 +72,19 @@ impl<'a, C: Chart> PlaneCanvas<'a, C> {
         Rotation2::new(self.turn - FRAC_PI_2) * (to - from).normalize()
     }
 
+    /// Whether a rod of a tile, from its edge to its farther contact, meets a hole.
+    fn crosses_hole(&self, rods: &[Line], contacts: &[Point2<f64>]) -> bool {
+        let n = rods.len();
+        let half_width = HOLE_MARGIN * self.placement.edge;
+        (0..n).any(|i| {
+            let from = rods[i].at;
+            let ends = [contacts[i], contacts[(i + n - 1) % n]].map(|c| (c, (c - from).norm()));
+            let (far, _) = if ends[0].1 > ends[1].1 { ends[0] } else { ends[1] };
+            let [a, b] = [from, far].map(|p| self.placement.apply(p));
+            self.chart.crosses_hole(a, b, half_width)
+        })
+    }
+
     fn lift(&self, p: Point2<f64>) -> Option<SurfacePoint> {
         self.chart.lift(self.placement.apply(p))
     }
@@ -93,12 +110,13 @@ impl<C: Chart> Canvas for PlaneCanvas<'_, C> {
         let grown = |p: Point2<f64>| p + (p - center) * MARGIN;
         let corners = self.tiling.net.tiles[tile].corners.iter().map(|&v| self.tiling.vertices[v]);
         let Some(unit) = FlatUnit::new(&lines) else { return false };
+        let contacts = unit.contacts.clone();
         let mut points = std::iter::once(center)
             .chain(corners.map(grown))
             .chain(lines.iter().map(|l| grown(l.at)))
             .chain(unit.middles)
             .chain(unit.contacts);
-        points.all(|p| self.lift(p).is_some())
+        points.all(|p| self.lift(p).is_some()) && !self.crosses_hole(&lines, &contacts)
     }
 
     fn rank(&self, tile: TileId) -> [f64; 2] {

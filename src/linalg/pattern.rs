@@ -1,0 +1,173 @@
+//! Where a symmetric matrix has entries: the lower triangle by columns.
+
+use super::LinalgError;
+
+/// The lower triangle of a symmetric pattern in compressed columns, each sorted and
+/// beginning with its diagonal. Indices take 32 bits: half the memory of the wide
+/// ones, and a factor with more entries would not fit into memory anyway.
+#[derive(Clone, PartialEq, Debug)]
+pub struct LowerPattern {
+    /// Where each column starts in `rows`, and the end.
+    pub(super) starts: Vec<u32>,
+    pub(super) rows: Vec<u32>,
+}
+
+impl LowerPattern {
+    /// The pattern of `size` unknowns with these pairs of unknowns and the whole
+    /// diagonal. Pairs stand for both halves, either way round, any number of times.
+    /// They are walked through twice.
+    ///
+    /// # Errors
+    /// [`LinalgError::TooLarge`] when the entries cannot be counted in 32 bits.
+    ///
+    /// # Panics
+    /// On a pair beyond `size`.
+    pub fn new(
+        size: usize,
+        pairs: impl Iterator<Item = (usize, usize)> + Clone,
+    ) -> Result<Self, LinalgError> {
+        let too_large = || LinalgError::TooLarge { size };
+        let below = || pairs.clone().filter(|(i, j)| i != j).map(|(i, j)| (i.max(j), i.min(j)));
+        let mut ends = vec![1_usize; size];
+        for (_, column) in below() {
+            ends[column] += 1;
+        }
+        let mut total = 0;
+        for end in &mut ends {
+            let start = total;
+            total += *end;
+            *end = start;
+        }
+        u32::try_from(total).map_err(|_| too_large())?;
+        u32::try_from(2 * size + 1).map_err(|_| too_large())?;
+        let mut rows = vec![0_u32; total];
+        let mut put = |row: usize, column: usize| {
+            rows[ends[column]] = row as u32;
+            ends[column] += 1;
+        };
+        (0..size).for_each(|i| put(i, i));
+        below().for_each(|(row, column)| put(row, column));
+        Ok(Self::from_columns(rows, &ends))
+    }
+
+    /// Sorts the columns that end at `ends` and drops what is there twice.
+    fn from_columns(mut rows: Vec<u32>, ends: &[usize]) -> Self {
+        let mut starts = Vec::with_capacity(ends.len() + 1);
+        starts.push(0);
+        let (mut from, mut kept) = (0, 0);
+        for &end in ends {
+            rows[from..end].sort_unstable();
+            let first = kept;
+            for k in from..end {
+                if kept == first || rows[kept - 1] != rows[k] {
+                    rows[kept] = rows[k];
+                    kept += 1;
+                }
+            }
+            starts.push(kept as u32);
+            from = end;
+        }
+        rows.truncate(kept);
+        rows.shrink_to_fit();
+        Self { starts, rows }
+    }
+
+    /// Number of unknowns.
+    pub fn size(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Number of entries of the lower triangle.
+    pub fn entries(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// The rows of a column, the diagonal first.
+    pub fn column(&self, column: usize) -> &[u32] {
+        &self.rows[self.starts[column] as usize..self.starts[column + 1] as usize]
+    }
+
+    /// Where among the entries of its column a row stands.
+    ///
+    /// # Panics
+    /// When the pair is not in the pattern or stands above the diagonal.
+    pub fn rank(&self, row: usize, column: usize) -> usize {
+        self.column(column).binary_search(&(row as u32)).expect("the pattern holds the pair")
+    }
+
+    /// Where an entry stands among all.
+    ///
+    /// # Panics
+    /// When the pair is not in the pattern or stands above the diagonal.
+    pub fn position(&self, row: usize, column: usize) -> usize {
+        self.starts[column] as usize + self.rank(row, column)
+    }
+
+    /// The pattern with two unknowns in place of each, side by side. Entry k of column
+    /// j becomes a block of four, or of three on the diagonal; see [`doubled_at`].
+    ///
+    /// # Errors
+    /// [`LinalgError::TooLarge`] when the entries cannot be counted in 32 bits.
+    pub fn doubled(&self) -> Result<Self, LinalgError> {
+        let size = 2 * self.size();
+        let total = 4 * self.entries() - self.size();
+        u32::try_from(total).map_err(|_| LinalgError::TooLarge { size })?;
+        let mut doubled =
+            Self { starts: Vec::with_capacity(size + 1), rows: Vec::with_capacity(total) };
+        doubled.starts.push(0);
+        for column in 0..self.size() {
+            for half in 0..2 {
+                let all = self.column(column).iter().flat_map(|&row| [2 * row, 2 * row + 1]);
+                doubled.rows.extend(all.skip(half));
+                doubled.starts.push(doubled.rows.len() as u32);
+            }
+        }
+        Ok(doubled)
+    }
+
+    /// Positions in [`doubled`](Self::doubled) of the block of an entry: for each of the
+    /// two columns, that of its lower row. The upper row stands one before it, except
+    /// that the upper right corner of a diagonal block is not stored.
+    pub(super) fn doubled_at(&self, row: usize, column: usize) -> [usize; 2] {
+        let entries = self.column(column).len();
+        let rank = self.rank(row, column);
+        // The column before holds four for each entry but the first, which holds three.
+        let start = 4 * self.starts[column] as usize - column;
+        let first = start + 2 * rank + 1;
+        [first, first + 2 * entries - 1]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn triangle_fan() -> LowerPattern {
+        let pairs = [(0, 1), (3, 1), (1, 0), (2, 0), (2, 2), (3, 0)];
+        LowerPattern::new(4, pairs.into_iter()).unwrap()
+    }
+
+    #[test]
+    fn pairs_are_sorted_once_each_with_the_diagonal_first() {
+        let pattern = triangle_fan();
+        let columns: Vec<&[u32]> = (0..4).map(|c| pattern.column(c)).collect();
+        assert_eq!(columns, [&[0, 1, 2, 3][..], &[1, 3], &[2], &[3]]);
+        assert_eq!(pattern.position(3, 1), 5);
+    }
+
+    #[test]
+    fn blocks_are_found_in_the_doubled_pattern() {
+        let pattern = triangle_fan();
+        let doubled = pattern.doubled().unwrap();
+        assert_eq!(doubled.size(), 8);
+        for column in 0..4 {
+            for &row in pattern.column(column) {
+                let row = row as usize;
+                let at = pattern.doubled_at(row, column);
+                for half in 0..2 {
+                    assert_eq!(at[half], doubled.position(2 * row + 1, 2 * column + half));
+                }
+            }
+        }
+    }
+}
