@@ -82,7 +82,7 @@ pub const NAMES: [(&str, &str); TABLE.len()] = {
 
 /// Names of the samples that are polygons to be used as they are.
 pub const POLYGONS: [(&str, &str); 1] =
-    [("ring", "closed ring of 200 hexagons, 700 mm across, 200 mm high, for --pattern mesh")];
+    [("ring", "closed ring of 96 hexagons, 700 mm across, 160 mm high, for --pattern mesh")];
 
 /// A sample of polygons by name.
 pub fn sample_polygons(name: &str) -> Option<PolygonMesh> {

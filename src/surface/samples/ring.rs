@@ -22,7 +22,7 @@ pub struct Ring {
 
 impl Ring {
     /// The sample.
-    pub const SAMPLE: Self = Self { radius: 250.0, tube: 100.0, along: 20, round: 10 };
+    pub const SAMPLE: Self = Self { radius: 270.0, tube: 80.0, along: 16, round: 6 };
 
     /// Its polygons. Hexagon (p, q) has its middle at (2 p + q mod 2, 3 q) in steps of
     /// half a hexagon along and a third of a row round; so corners have whole numbers.
@@ -64,7 +64,7 @@ mod tests {
     #[test]
     fn the_ring_is_sound_closed_and_has_one_handle() {
         let ring = Ring::SAMPLE.polygons();
-        assert_eq!((ring.faces.len(), ring.points.len()), (200, 400));
+        assert_eq!((ring.faces.len(), ring.points.len()), (96, 192));
         let mended = mend_polygons(ring.clone()).expect("sound");
         assert_eq!((mended.mesh, mended.notes), (ring.clone(), Vec::new()));
         let mesh = ring.triangles();
