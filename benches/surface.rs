@@ -48,24 +48,8 @@ fn table(args: &[String]) {
     let sizes = SIZES.iter().filter(|(n, _)| wanted.is_empty() || wanted.contains(n));
     println!("seconds; angle errors are means in degrees; memory is the peak of a process");
     println!(
-        "{:>9} | {:>6} {:>6} {:>6} {:>6} {:>6} | {:>7} {:>5} {:>7} {:>6} {:>7} {:>8} | {:>7} {:>7} {:>6} {:>7} | {}",
-        "triangles",
-        "read",
-        "shape",
-        "trees",
-        "plane",
-        "space",
-        "ABF",
-        "steps",
-        "angle",
-        "flips",
-        "scale",
-        "memory",
-        "LSCM",
-        "angle",
-        "flips",
-        "memory",
-        "others' ABF (Blender, OpenABF)"
+        "triangles |   read  shape  trees  plane  space |     ABF steps   angle  flips   scale   \
+         memory |    LSCM   angle  flips   memory | ABF of Blender, OpenABF"
     );
     for &(n, abf) in sizes {
         let n_text = n.to_string();
@@ -75,13 +59,13 @@ fn table(args: &[String]) {
         let lscm: Vec<&str> = lscm.split_whitespace().collect();
         let lscm = match lscm[..] {
             [time, _, angle, flips, _, memory] => {
-                format!("{time:>7} {angle:>7} {flips:>6} {memory:>7}")
+                format!("{time:>7} {angle:>7} {flips:>6} {memory:>8}")
             }
             _ => lscm.join(" "),
         };
         let others = OTHERS.iter().find(|o| o.0 == n);
         let others = others.map_or_else(|| "-".into(), |o| format!("{} {}", o.1[0], o.1[1]));
-        println!("{steps} | {abf:>45} | {lscm:>30} | {others}");
+        println!("{steps} | {abf:>46} | {lscm:>31} | {others}");
     }
 }
 

@@ -120,7 +120,10 @@ impl<'a> AbfSolver<'a> {
         });
         let solver = PairSolver::new(LowerPattern::new(inner_count, pairs)?)?;
         let target = scaled_targets(sheet);
-        let angles = target.clone();
+        // The targets agree round vertices; the start in triangles. From targets, an angle
+        // that scaling brings near π begins as a fold that no step opens.
+        let closed = |t: &[f64; 3]| t.map(|a| a * PI / t.iter().sum::<f64>());
+        let angles = target.iter().map(closed).collect();
         Ok(Self { triangles, real: sheet.real, inner, inner_count, target, angles, solver })
     }
 

@@ -298,4 +298,42 @@ mod tests {
         let loose = solver.factor(&[1.0, -1.0, 0.5]).unwrap_err();
         assert!(matches!(loose, LinalgError::NotPositiveDefinite { size: 2, .. }), "{loose}");
     }
+
+    /// Blocks given either way round make the same system as their entries.
+    #[test]
+    fn blocks_of_two_agree_with_single_entries() {
+        let own = Matrix2::new(4.0, 1.0, 1.0, 5.0);
+        let between = Matrix2::new(-1.0, 0.5, 0.25, -1.5);
+        let blocks = [
+            (0, 0, own),
+            (1, 1, own * 2.0),
+            (2, 2, own),
+            (2, 0, between),
+            (0, 1, between),
+            (1, 0, between),
+        ];
+        let nodes = LowerPattern::new(3, blocks.iter().map(|b| (b.0, b.1))).unwrap();
+        let mut pairs = PairSolver::new(nodes).unwrap();
+        let (mut entries, mut values) = (Vec::new(), Vec::new());
+        for (row, column, block) in blocks {
+            pairs.add(row, column, block);
+            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                // Of a block on the diagonal, the lower half.
+                if row != column || i >= j {
+                    entries.push((2 * row + i, 2 * column + j));
+                    values.push(block[(i, j)]);
+                }
+            }
+        }
+        let mut single = SpdSolver::new(6, &entries).unwrap();
+        pairs.factor().unwrap();
+        single.factor(&values).unwrap();
+        let mut found = [1.0, -2.0, 3.0, 0.5, 0.0, 7.0];
+        let mut wanted = found;
+        pairs.solve(&mut found);
+        single.solve(&mut wanted);
+        for (found, wanted) in found.iter().zip(wanted) {
+            assert!((found - wanted).abs() < 1e-13, "{found} {wanted}");
+        }
+    }
 }

@@ -163,10 +163,8 @@ mod tests {
         for column in 0..4 {
             for &row in pattern.column(column) {
                 let row = row as usize;
-                let at = pattern.doubled_at(row, column);
-                for half in 0..2 {
-                    assert_eq!(at[half], doubled.position(2 * row + 1, 2 * column + half));
-                }
+                let wanted = [0, 1].map(|half| doubled.position(2 * row + 1, 2 * column + half));
+                assert_eq!(pattern.doubled_at(row, column), wanted);
             }
         }
     }
