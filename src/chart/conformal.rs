@@ -55,6 +55,7 @@ pub(super) fn abf_or_lscm(
         ChartError::NoConvergence { steps, .. } => format!("did not settle in {steps} steps"),
         ChartError::Folded { count, .. } => format!("turned {count} triangles over"),
         ChartError::Linear(error) => format!("stopped: {error}"),
+        ChartError::Overlaps { .. } => return Err(why),
     };
     match lscm(mesh, sheet) {
         Ok(map) => {

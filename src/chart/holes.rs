@@ -60,7 +60,7 @@ fn nearest_of(triangle: &[Point2<f64>; 3], p: &Point2<f64>) -> Point2<f64> {
 }
 
 /// Whether two segments cross in the inside of both.
-fn cross(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>, d: Point2<f64>) -> bool {
+pub(super) fn cross(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>, d: Point2<f64>) -> bool {
     let side = |p: Point2<f64>, q: Point2<f64>, r: Point2<f64>| (q - p).perp(&(r - p));
     side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
 }

@@ -7,6 +7,7 @@ mod fill;
 mod holes;
 mod layout;
 mod planar;
+mod rim;
 mod sheet;
 
 pub use abf::{Flattening, flatten};
@@ -64,6 +65,13 @@ pub enum ChartError {
          near triangle {first}). Cut the surface into gentler pieces, or remesh it finer there"
     )]
     Folded { count: usize, total: usize, first: crate::ids::FaceId },
+    /// Far parts of the flat mesh lie on top of each other.
+    #[error(
+        "the flattened surface overlaps itself: its border near ({:.1}, {:.1}, {:.1}) mm comes to \
+         lie on another part. Cut the surface there or above (--cut), or use its own polygons \
+         (--pattern mesh)", .at[0], .at[1], .at[2]
+    )]
+    Overlaps { at: [f64; 3] },
     /// A linear system failed.
     #[error("the surface could not be flattened: {0}. Remesh it without slivers")]
     Linear(#[from] LinalgError),

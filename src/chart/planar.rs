@@ -3,6 +3,7 @@
 
 use super::distortion::measure;
 use super::holes::Holes;
+use super::rim::first_crossing;
 use super::{Chart, ChartError, Conformal, Distortion, Method, Sheet, SurfacePoint, conformal};
 use crate::ids::{Id, IdVec, VertexId};
 use crate::surface::locate::PlanarLocator;
@@ -34,6 +35,11 @@ impl PlanarChart {
         let holes = Holes::new(&flat, &sheet.triangles[sheet.real..]);
         // Corners that fill a hole are of no more use.
         let flat: IdVec<VertexId, _> = flat[..mesh.points.len()].to_vec().into();
+        if let Some(edge) = first_crossing(topology, &flat) {
+            return Err(ChartError::Overlaps {
+                at: mesh.points[topology.from(edge)].coords.into(),
+            });
+        }
         let angles = &sheet.angles[..sheet.real];
         let distortion =
             Distortion { method, fallback, steps, ..measure(&mesh, topology, angles, &flat) };

@@ -4,7 +4,7 @@
 //! a whole when its border lines do not cross each other or themselves either.
 
 use super::holes::cross;
-use crate::ids::{Id, IdVec, VertexId};
+use crate::ids::{IdVec, VertexId};
 use crate::surface::bvh::{Aabb, Bvh};
 use crate::surface::topology::{HalfedgeId, Topology};
 use nalgebra::Point2;
@@ -39,6 +39,7 @@ pub(super) fn first_crossing(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ids::Id;
     use crate::surface::{Mesh, Point3};
 
     /// A strip of two rows of points, `turn` times round a circle in the plane, as a

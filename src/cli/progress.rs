@@ -51,7 +51,7 @@ impl Progress {
 fn doing(step: Step) -> &'static str {
     match step {
         Step::Read => "reading the surface",
-        Step::Chart => "flattening it",
+        Step::Chart => "laying out the tiles",
         Step::Fit => "fitting the units",
         Step::Form => "closing the frame",
         Step::Measure => "measuring",
