@@ -47,7 +47,7 @@ impl FlatUnit {
         for i in 0..n {
             let (before, after) = (along[(i + n - 1) % n][1], along[i][0]);
             let in_circuit = if counter_clockwise { after < before } else { before < after };
-            if !in_circuit || !(before.is_finite() && after.is_finite()) {
+            if !(in_circuit && before.is_finite() && after.is_finite()) {
                 return None;
             }
             middles.push(rods[i].at + rods[i].inward * ((before + after) / 2.0));
@@ -101,11 +101,13 @@ mod tests {
                 let r = 0.5 / (PI / sides as f64).tan();
                 let corner = r * turn.sin().abs() / (PI / sides as f64).cos();
                 assert_eq!(unit.counter_clockwise, turn > 0.0);
-                for i in 0..sides {
-                    assert!((unit.contacts[i].coords.norm() - corner).abs() < 1e-12);
-                    let along = (unit.middles[i] - lines[i].at).norm();
+                for contact in &unit.contacts {
+                    assert!((contact.coords.norm() - corner).abs() < 1e-12);
+                }
+                for (middle, line) in unit.middles.iter().zip(&lines) {
+                    let along = (middle - line.at).norm();
                     assert!((along - r * turn.cos()).abs() < 1e-12, "{sides} {degrees}");
-                    assert!((unit.middles[i].coords.norm() - r * turn.sin().abs()).abs() < 1e-12);
+                    assert!((middle.coords.norm() - r * turn.sin().abs()).abs() < 1e-12);
                 }
             }
         }

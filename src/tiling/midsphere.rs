@@ -273,7 +273,7 @@ mod tests {
 
     fn form(notation: &str) -> Midscribed {
         let notation: Notation = notation.parse().expect("a notation");
-        midsphere(&notation.polyhedron()).expect(&notation.to_string())
+        midsphere(&notation.polyhedron()).unwrap_or_else(|e| panic!("{notation}: {e}"))
     }
 
     fn worst(m: &Midscribed) -> [f64; 2] {

@@ -7,7 +7,7 @@
 
 use super::figure::exact;
 use crate::ids::FaceId;
-use crate::surface::Mesh;
+use crate::surface::{Mesh, Point3};
 use std::fmt::Write as _;
 
 /// Bytes of text before the number of triangles. It must not begin with `solid`, which
@@ -19,11 +19,15 @@ const HEADER: &[u8; 80] =
 pub fn write_stl(mesh: &Mesh) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(84 + 50 * mesh.triangles.len());
     bytes.extend(HEADER);
+    // Normals are those of the corners as written.
+    let single = |p: &Point3| p.map(|x| f64::from(x as f32));
+    let points = mesh.points.iter().map(single).collect();
+    let mesh = Mesh { points, triangles: mesh.triangles.clone() };
     let count = u32::try_from(mesh.triangles.len());
     bytes.extend(count.expect("triangles have 32-bit numbers").to_le_bytes());
     for face in mesh.triangles.ids() {
         let corners = mesh.corners(face).map(|p| [p.x, p.y, p.z]);
-        for x in [normal(mesh, face)].iter().chain(&corners).flatten() {
+        for x in [normal(&mesh, face)].iter().chain(&corners).flatten() {
             // Adding zero turns -0 into 0.
             bytes.extend((*x as f32 + 0.0).to_le_bytes());
         }
@@ -59,7 +63,6 @@ fn normal(mesh: &Mesh, face: FaceId) -> [f64; 3] {
 mod tests {
     use super::*;
     use crate::ids::{Id, VertexId};
-    use crate::surface::Point3;
 
     fn triangle() -> Mesh {
         let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.1, -0.0]];

@@ -7,3 +7,4 @@ mod inspecting;
 mod refusals;
 mod run;
 mod samples;
+mod tiles;
