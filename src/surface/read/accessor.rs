@@ -4,7 +4,6 @@
 
 use super::gltf::GltfError;
 use gltf::Accessor;
-use gltf::accessor::sparse::IndexType;
 use gltf::accessor::{DataType, Dimensions};
 use gltf::buffer::View;
 
@@ -92,11 +91,7 @@ fn elements<T: Clone>(
     let Some(sparse) = accessor.sparse() else { return Ok(base) };
     let Some(mut base) = base else { return Ok(None) };
     let (indices, values) = (sparse.indices(), sparse.values());
-    let index_size = match indices.index_type() {
-        IndexType::U8 => 1,
-        IndexType::U16 => 2,
-        IndexType::U32 => 4,
-    };
+    let index_size = indices.index_type().size();
     let packed =
         |view, offset, size| Table { view, offset, stride: size, size, count: sparse.count() };
     let places = packed(indices.view(), indices.offset(), index_size).rows(bytes).map_err(wrong)?;
