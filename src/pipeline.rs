@@ -150,12 +150,22 @@ fn finish(
         layering: design.layer,
         surface_low: guide.low(),
     };
-    let formed = form(canvas, &settings)?;
+    let formed = form(canvas, &settings).map_err(|e| unsuited(e, &fit))?;
     begin(Step::Measure);
     let measures = measure(&formed, &guide);
     begin(Step::Saw);
     let plan = sawing_plan(design, &formed)?;
     Ok(Model { guide, notes, fit, formed, measures, plan })
+}
+
+/// Where units fail whose size and turn could not be fitted to the rods, says which rods
+/// would suit them.
+fn unsuited(e: FormError, fit: &Fit) -> BuildError {
+    let fixed = matches!(fit.by, FitBy::Given | FitBy::TurnLimit);
+    match e {
+        FormError::TooManyDropped { .. } if fixed => BuildError::Unsuited { e, suits: fit.rise },
+        e => e.into(),
+    }
 }
 
 /// Size and turn as the user gave them, with the rise that comes of them.
@@ -226,8 +236,8 @@ pub enum BuildError {
     },
     /// Rods turned too little or too far for the tiles, in degrees.
     #[error(
-        "turn = {turn}deg: with these tiles the frame holds together between {least} and {most} \
-         degrees, either way round. Leave --turn out to let it be fitted to the rods"
+        "turn = {turn:.1}deg: with these tiles the frame holds together between {least:.0} and \
+         {most:.0} degrees, either way round. Leave --turn out to let it be fitted to the rods"
     )]
     Turn { turn: f64, least: f64, most: f64 },
     /// The chart.
@@ -242,6 +252,9 @@ pub enum BuildError {
     /// The frame.
     #[error(transparent)]
     Form(#[from] FormError),
+    /// The frame, with rods that do not suit its units.
+    #[error("{e}. Rods of {suits:.1} mm (--rod) would suit these units best")]
+    Unsuited { e: FormError, suits: f64 },
     /// The sawing plan.
     #[error("{0}. {hint}", hint = sentence(&.0.hint()))]
     Cut(#[from] CutError),

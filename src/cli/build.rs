@@ -6,6 +6,7 @@ use super::summary::summary;
 use super::terminal::{Terminal, print};
 use crate::design::{Design, DesignError, Settings};
 use crate::documents;
+use crate::frame::fit::{Fit, FitBy};
 use crate::frame::guide::Guide;
 use crate::pipeline::{self, Model, Step};
 use crate::write::folder::{FolderError, OutputFolder};
@@ -95,21 +96,42 @@ fn design(args: &Args) -> Result<Design, Failure> {
     args.settings.clone().or(from_file).resolve(folder).map_err(failure)
 }
 
+/// What to say of sticks that sit badly in units that were not fitted to them.
+fn ill_fitting(design: &Design, fit: &Fit) -> Option<String> {
+    let open = match fit.by {
+        FitBy::Given if design.unit.is_some() => ", or leave out --unit",
+        FitBy::Given => ", or leave out --turn",
+        FitBy::TurnLimit => "",
+        FitBy::Edge | FitBy::Turn | FitBy::Plain => return None,
+    };
+    let ratio = design.rod / fit.rise;
+    if ratio > FLAT {
+        return Some(
+            "the surface is too flat to lift the rods over each other: the frame will stand off it"
+                .into(),
+        );
+    }
+    if (1.0 / ILL_FITTING..=ILL_FITTING).contains(&ratio) {
+        return None;
+    }
+    let thick = if ratio > 1.0 { "thick" } else { "thin" };
+    Some(format!(
+        "{} mm rods are rather {thick} for units of {:.1} mm on this surface: {:.1} mm would \
+         suit{open}",
+        design.rod, fit.edge, fit.rise
+    ))
+}
+
+/// A stick this many times thicker than the rise has no rise to speak of.
+const FLAT: f64 = 20.0;
+
 /// A stick this many times thicker or thinner than the rise sits badly.
 const ILL_FITTING: f64 = 2.0;
 
 /// What the builder should know before sawing.
 fn warnings(design: &Design, model: &Model) -> Vec<String> {
     let mut warnings = Vec::new();
-    let ratio = design.rod / model.fit.rise;
-    if design.unit.is_some() && !(1.0 / ILL_FITTING..=ILL_FITTING).contains(&ratio) {
-        let thick = if ratio > 1.0 { "thick" } else { "thin" };
-        warnings.push(format!(
-            "{} mm rods are rather {thick} for units of {:.1} mm on this surface: {:.1} mm would \
-             suit, or leave out --unit",
-            design.rod, model.fit.edge, model.fit.rise
-        ));
-    }
+    warnings.extend(ill_fitting(design, &model.fit));
     if let Guide::Chart { distortion, .. } = &model.guide {
         warnings.extend(distortion.fallback.clone());
         warnings.extend(distortion.uneven().map(|uneven| {

@@ -59,10 +59,11 @@ fn spheres_of_every_operator_make_sound_frames() {
         ("sphere:aI/2", 240, 122),
         ("sphere:dI/3", 270, 92),
         ("sphere:kC/2", 144, 96),
-        ("sphere:tO", 36, 14),
+        ("sphere:tO/2", 144, 50),
         ("sphere:eD", 120, 62),
         ("sphere:sC", 60, 38),
-        ("sphere:gT", 30, 12),
+        ("sphere:gD", 150, 60),
+        ("sphere:jD", 60, 30),
     ];
     for (surface, rods, units) in cases {
         assert_eq!(built(dir.path(), &[surface, "--force"]), (rods, units), "{surface}");
