@@ -74,7 +74,7 @@ const PLAIN_EDGE: f64 = 20.0;
 
 /// Smallest tile edge tried, in diameters: below, there is no room for the rods
 /// between the contacts of a unit.
-const LEAST_EDGE: f64 = 6.0;
+pub(super) const LEAST_EDGE: f64 = 6.0;
 
 /// Fewest units of a fitted frame. Fewer make a poor likeness of a surface.
 const LIKENESS: usize = 12;

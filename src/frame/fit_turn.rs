@@ -6,7 +6,7 @@
 //! for the tiles.
 
 use super::canvas::Canvas;
-use super::fit::{Fit, FitBy};
+use super::fit::{Fit, FitBy, LEAST_EDGE};
 use super::form::{FormError, median_rise};
 use crate::tiling::Net;
 
@@ -37,7 +37,8 @@ pub fn safe_turns(net: &Net) -> [f64; 2] {
 /// canvases; `make` gives the surface with its rods at a turn.
 ///
 /// # Errors
-/// [`FormError::TooFewUnits`] where hardly a unit can be made.
+/// [`FormError::TooFewUnits`] where hardly a unit can be made, [`FormError::TooSmall`]
+/// where the tiles have no room for the rods.
 pub fn fit_turn<C: Canvas>(
     make: impl Fn(f64) -> C,
     turns: [f64; 2],
@@ -49,6 +50,7 @@ pub fn fit_turn<C: Canvas>(
         Ok(Fit { edge: canvas.edge(), turn, rise, units, by })
     };
     let [mut low, mut high] = turns;
+    require_size(&make(low), diameter)?;
     let least = try_turn(low, FitBy::TurnLimit)?;
     let most = try_turn(high, FitBy::TurnLimit)?;
     if most.rise < FLAT * diameter {
@@ -65,6 +67,15 @@ pub fn fit_turn<C: Canvas>(
         if try_turn(middle, FitBy::Turn)?.rise < diameter { low = middle } else { high = middle }
     }
     try_turn(high, FitBy::Turn)
+}
+
+fn require_size(canvas: &impl Canvas, diameter: f64) -> Result<(), FormError> {
+    let (edge, least) = (canvas.edge(), LEAST_EDGE * diameter);
+    if edge >= least {
+        return Ok(());
+    }
+    let (suits, larger) = (edge / LEAST_EDGE, canvas.sizing().larger);
+    Err(FormError::TooSmall { edge, diameter, least, suits, larger })
 }
 
 #[cfg(test)]
@@ -85,11 +96,11 @@ mod tests {
     #[test]
     fn the_rise_meets_the_diameter_where_it_can() {
         let thin = on_sphere(0.5);
-        let thick = on_sphere(60.0);
+        let thick = on_sphere(14.0);
         let [low, high] = [8f64.to_radians(), 24f64.to_radians()];
         assert_eq!((thin.by, thin.turn), (FitBy::TurnLimit, low));
-        assert_eq!((thick.by, thick.turn), (FitBy::Plain, high.min(PLAIN_TURN)));
-        let diameter = (thin.rise + on_sphere(20.0).rise) / 2.0;
+        assert_eq!((thick.by, thick.turn), (FitBy::TurnLimit, high));
+        let diameter = (thin.rise + on_sphere(14.0).rise) / 2.0;
         let fit = on_sphere(diameter);
         assert_eq!(fit.by, FitBy::Turn);
         assert!((fit.rise / diameter - 1.0).abs() < 1e-3, "{fit:?}");

@@ -56,6 +56,12 @@ pub enum FormError {
          {least}. Use {smaller}, thinner rods (--rod) or a larger model (--span)"
     )]
     TooFewUnits { units: usize, least: usize, edge: f64, smaller: &'static str },
+    /// The units that a surface has are too small for the rods.
+    #[error(
+        "units of edge {edge:.1} mm are too small for {diameter} mm rods, which need some \
+         {least:.0} mm. Use {larger}, or rods of at most {suits:.1} mm (--rod)"
+    )]
+    TooSmall { edge: f64, diameter: f64, least: f64, suits: f64, larger: &'static str },
     /// The units have no room for the rods.
     #[error(
         "units of edge {edge:.1} mm are too small for {diameter} mm rods: the contacts of a unit \

@@ -184,6 +184,24 @@ impl<'de> Deserialize<'de> for Component {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Two pieces of polygons, the second larger.
+    #[test]
+    fn a_piece_of_polygons_keeps_its_faces_whole() {
+        let square = |x: f64, side: f64| {
+            [[x, 0.0], [x + side, 0.0], [x + side, side], [x, side]]
+                .map(|[x, y]| Point3::new(x, y, 0.0))
+        };
+        let points = [square(0.0, 1.0), square(5.0, 2.0)].concat();
+        let face = |first: usize| (first..first + 4).map(VertexId::new).collect();
+        let mesh = PolygonMesh { points: points.into(), faces: vec![face(0), face(4)] };
+        let largest = keep_polygons(&mesh, Component::Largest).expect("two pieces");
+        assert_eq!(largest.faces, [face(0)]);
+        assert_eq!(largest.points[VertexId::new(0)], Point3::new(5.0, 0.0, 0.0));
+        assert_eq!(keep_polygons(&mesh, Component::Number(2)), Ok(largest));
+        assert!(keep_polygons(&mesh, Component::Number(3)).is_err());
+    }
+
     use crate::surface::{Point3, samples};
 
     /// A small vault, the igloo, and the vault once more; some vertices are not used.

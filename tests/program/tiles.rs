@@ -216,11 +216,11 @@ fn what_cannot_be_is_refused_with_the_reason() {
         (&["sphere:aI", "--warp", "9"], "from 0.3125 to 3.2"),
         (&["sphere:aI", "--cut", "z=400mm"], "passes by the sphere"),
         (&["sphere:aI", "--turn", "60"], "between 8 and 24 degrees"),
-        (&["sphere:aI/2", "--rod", "90mm"], "--rod"),
+        (&["sphere:aI/2", "--rod", "90mm"], "rods of at most 15.2 mm"),
         (&[&igloo, "--warp", "1.2"], "warp does nothing here"),
         (&[&igloo, "--cut", "z=900mm"], "reaches from 0 to 220 mm"),
         (&[&igloo, "--component", "3"], "there is no piece 3"),
-        (&[&igloo, "--pattern", "mesh"], "larger span"),
+        (&[&igloo, "--pattern", "mesh"], "a coarser mesh or a larger span"),
         (&[&ring, "--pattern", "mesh", "--origin", "1,1"], "origin does nothing here"),
     ];
     for (args, expected) in cases {
