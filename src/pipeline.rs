@@ -15,8 +15,8 @@ use crate::shop::lengths::cut_lengths;
 use crate::surface::prepare::{PrepareError, Prepared, prepare, prepare_polygons};
 use crate::surface::read::{ReadError, read, read_polygons};
 use crate::surface::topology::{TopologyError, require_chartable};
+use crate::tiling::Placement;
 use crate::tiling::midsphere::{MidsphereError, midsphere};
-use crate::tiling::{Net, Placement};
 use thiserror::Error;
 
 /// A finished model: the frame and everything that was found on the way.
@@ -108,7 +108,7 @@ fn on_polygons(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, Bu
     let mesh = prepare_polygons(reading, design.up, design.component, design.cut, design.span)?;
     begin(Step::Fit);
     let canvas = MeshCanvas::new(&mesh.points, &mesh.faces, 0.0);
-    let fit = turned_fit(design, canvas.net(), |turn| canvas.turned(turn))?;
+    let fit = turned_fit(design, |turn| canvas.turned(turn))?;
     finish(design, &canvas.turned(fit.turn), fit, Guide::Mesh(mesh), notes, begin)
 }
 
@@ -128,7 +128,7 @@ fn on_sphere(
         return Err(BuildError::CutPastSphere { at, radius });
     }
     let canvas = SphereCanvas::new(&form, radius, cut, design.rotate, 0.0);
-    let fit = turned_fit(design, canvas.net(), |turn| canvas.turned(turn))?;
+    let fit = turned_fit(design, |turn| canvas.turned(turn))?;
     let guide = Guide::Sphere { faces: canvas.net().tiles.len(), radius, low: canvas.low() };
     finish(design, &canvas.turned(fit.turn), fit, guide, Vec::new(), begin)
 }
@@ -175,12 +175,8 @@ fn as_given(canvas: &impl Canvas, turn: f64) -> Fit {
 }
 
 /// The turn given, if it is safe for these tiles, or the one that fits.
-fn turned_fit<C: Canvas>(
-    design: &Design,
-    net: &Net,
-    make: impl Fn(f64) -> C,
-) -> Result<Fit, BuildError> {
-    let turns = safe_turns(net);
+fn turned_fit<C: Canvas>(design: &Design, make: impl Fn(f64) -> C) -> Result<Fit, BuildError> {
+    let turns = safe_turns(&make);
     match design.turn {
         None => Ok(fit_turn(make, turns, design.rod)?),
         Some(turn) if (turns[0]..=turns[1]).contains(&turn.abs()) => {

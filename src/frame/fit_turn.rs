@@ -8,7 +8,10 @@
 use super::canvas::Canvas;
 use super::fit::{Fit, FitBy, LEAST_EDGE};
 use super::form::{FormError, median_rise};
+use crate::ids::TileId;
+use crate::pattern::{FlatUnit, Line};
 use crate::tiling::Net;
+use nalgebra::Point2;
 
 /// Part of the diameter below which the rise at the greatest turn says that the surface
 /// is as good as flat.
@@ -20,17 +23,56 @@ const PLAIN_TURN: f64 = 0.349;
 /// Halvings of the range of turns: to a hundredth of a degree.
 const BISECTIONS: usize = 12;
 
-/// Turns, radians, at which rods keep clear of rods that they do not touch: below, the
-/// holes close up; above, rods meet round the corners of the tiles, the sooner the more
-/// tiles there are at a corner.
-pub fn safe_turns(net: &Net) -> [f64; 2] {
+/// Turns, radians, at which rods keep clear of rods that they do not touch; `make` gives
+/// the surface with its rods at a turn. Below, the holes close up. Above, rods meet round
+/// the corners of the tiles, the sooner the more tiles there are at a corner; and in
+/// skewed tiles contacts come out at the edges.
+pub fn safe_turns<C: Canvas>(make: impl Fn(f64) -> C) -> [f64; 2] {
+    let least = 8f64.to_radians();
+    let mut most = corner_limit(make(least).net());
+    while most > least + STEP && share_with_room(&make(most)) < MOST_TILES {
+        most -= STEP;
+    }
+    [least, most]
+}
+
+/// Steps in which the greatest turn is lowered, radians: half a degree.
+const STEP: f64 = 0.0087;
+
+/// Part of the tiles that must have room for their contacts. The others may lose their
+/// unit; asking for all, a single bad tile would decide for the whole.
+const MOST_TILES: f64 = 0.95;
+
+/// A contact in which a rod is passed lies at least this part of the way from the tile's
+/// edge to the middle of the rod's side. Regular tiles come down to it where rods meet
+/// round the corners, too.
+const FROM_EDGE: f64 = 0.2;
+
+fn corner_limit(net: &Net) -> f64 {
     let triangles = net.tiles.iter().any(|t| t.corners.len() == 3);
-    let most = match net.greatest_valence() {
+    let degrees = match net.greatest_valence() {
         0..=3 => 45.0f64,
         4 if !triangles => 36.0,
         _ => 24.0,
     };
-    [8f64.to_radians(), most.to_radians()]
+    degrees.to_radians()
+}
+
+/// Part of the tiles whose contacts all lie well within them.
+fn share_with_room(canvas: &impl Canvas) -> f64 {
+    let tiles: Vec<TileId> = canvas.net().tiles.ids().filter(|&t| canvas.holds(t)).collect();
+    let roomy = tiles.iter().filter(|&&t| has_room(&canvas.lines(t))).count();
+    roomy as f64 / tiles.len().max(1) as f64
+}
+
+fn has_room(rods: &[Line]) -> bool {
+    let n = rods.len();
+    let Some(unit) = FlatUnit::new(rods) else { return false };
+    rods.iter().enumerate().all(|(i, rod)| {
+        let passing = if unit.counter_clockwise { i } else { (i + n - 1) % n };
+        let along = |p: Point2<f64>| (p - rod.at).dot(&rod.inward);
+        along(unit.contacts[passing]) >= FROM_EDGE * along(unit.middles[i])
+    })
 }
 
 /// Finds the turn for rods of `diameter` mm within `turns`, radians, by trying out
@@ -81,7 +123,9 @@ fn require_size(canvas: &impl Canvas, diameter: f64) -> Result<(), FormError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::canvas::SphereCanvas;
+    use crate::frame::canvas::{MeshCanvas, SphereCanvas};
+    use crate::ids::{Id, IdVec, VertexId};
+    use crate::surface::Point3;
     use crate::tiling::conway::Notation;
     use crate::tiling::midsphere::midsphere;
 
@@ -89,8 +133,31 @@ mod tests {
         let notation: Notation = "aI/2".parse().expect("a notation");
         let form = midsphere(&notation.polyhedron()).expect("round");
         let canvas = SphereCanvas::new(&form, 300.0, Some(0.0), 0.0, 0.1);
-        let turns = safe_turns(canvas.net());
+        let turns = safe_turns(|turn| canvas.turned(turn));
         fit_turn(|turn| canvas.turned(turn), turns, diameter).expect("units")
+    }
+
+    /// In regular tiles the limit is that of the corners; skewed ones lower it.
+    #[test]
+    fn skewed_tiles_are_turned_less() {
+        let limit = |slope: f64| {
+            let corner = |i: usize, j: usize| {
+                let [x, y] = [i as f64, j as f64];
+                Point3::new(x + slope * y, y, 0.0)
+            };
+            let points: IdVec<VertexId, Point3> = (0..25).map(|k| corner(k % 5, k / 5)).collect();
+            let faces: Vec<Vec<VertexId>> = (0..16)
+                .map(|k| {
+                    let v = k % 4 + 5 * (k / 4);
+                    [v, v + 1, v + 6, v + 5].map(VertexId::new).to_vec()
+                })
+                .collect();
+            let [_, most] = safe_turns(|turn| MeshCanvas::new(&points, &faces, turn));
+            most.to_degrees()
+        };
+        assert!((limit(0.0) - 36.0).abs() < 1e-9);
+        let (skewed, more) = (limit(0.5), limit(1.0));
+        assert!(more < skewed - 2.0 && skewed < 36.0 && more > 10.0, "{skewed} {more}");
     }
 
     #[test]
@@ -99,7 +166,8 @@ mod tests {
         let thick = on_sphere(14.0);
         let [low, high] = [8f64.to_radians(), 24f64.to_radians()];
         assert_eq!((thin.by, thin.turn), (FitBy::TurnLimit, low));
-        assert_eq!((thick.by, thick.turn), (FitBy::TurnLimit, high));
+        assert_eq!(thick.by, FitBy::TurnLimit);
+        assert!(thick.turn > high - 2.0 * STEP && thick.turn <= high);
         let diameter = (thin.rise + on_sphere(14.0).rise) / 2.0;
         let fit = on_sphere(diameter);
         assert_eq!(fit.by, FitBy::Turn);
