@@ -161,12 +161,19 @@ fn finish(
 /// Where units fail whose size and turn could not be fitted to the rods, says which rods
 /// would suit them.
 fn unsuited(e: FormError, fit: &Fit) -> BuildError {
-    let fixed = matches!(fit.by, FitBy::Given | FitBy::TurnLimit);
     match e {
-        FormError::TooManyDropped { .. } if fixed => BuildError::Unsuited { e, suits: fit.rise },
+        FormError::TooManyDropped { diameter, .. }
+            if !(1.0 / SUITING..=SUITING).contains(&(fit.rise / diameter)) =>
+        {
+            BuildError::Unsuited { e, suits: fit.rise }
+        }
         e => e.into(),
     }
 }
+
+/// Rods this much thinner or thicker than the rise suit well enough; it is not they that
+/// make units fail.
+const SUITING: f64 = 1.5;
 
 /// Size and turn as the user gave them, with the rise that comes of them.
 fn as_given(canvas: &impl Canvas, turn: f64) -> Fit {
@@ -176,7 +183,7 @@ fn as_given(canvas: &impl Canvas, turn: f64) -> Fit {
 
 /// The turn given, if it is safe for these tiles, or the one that fits.
 fn turned_fit<C: Canvas>(design: &Design, make: impl Fn(f64) -> C) -> Result<Fit, BuildError> {
-    let turns = safe_turns(&make);
+    let turns = safe_turns(&make, design.rod);
     match design.turn {
         None => Ok(fit_turn(make, turns, design.rod)?),
         Some(turn) if (turns[0]..=turns[1]).contains(&turn.abs()) => {

@@ -10,6 +10,7 @@ use super::fit::{Fit, FitBy, LEAST_EDGE};
 use super::form::{FormError, median_rise};
 use crate::ids::TileId;
 use crate::pattern::{FlatUnit, Line};
+use crate::surface::Point3;
 use crate::tiling::Net;
 use nalgebra::Point2;
 
@@ -23,17 +24,45 @@ const PLAIN_TURN: f64 = 0.349;
 /// Halvings of the range of turns: to a hundredth of a degree.
 const BISECTIONS: usize = 12;
 
-/// Turns, radians, at which rods keep clear of rods that they do not touch; `make` gives
-/// the surface with its rods at a turn. Below, the holes close up. Above, rods meet round
-/// the corners of the tiles, the sooner the more tiles there are at a corner; and in
-/// skewed tiles contacts come out at the edges.
-pub fn safe_turns<C: Canvas>(make: impl Fn(f64) -> C) -> [f64; 2] {
-    let least = 8f64.to_radians();
+/// Turns, radians, at which rods of `diameter` mm keep clear of rods that they do not
+/// touch; `make` gives the surface with its rods at a turn. Below, the holes close up, the
+/// later the larger the tiles. Above, rods meet round the corners of the tiles, the sooner
+/// the more tiles there are at a corner; and in skewed tiles contacts come out at the
+/// edges.
+pub fn safe_turns<C: Canvas>(make: impl Fn(f64) -> C, diameter: f64) -> [f64; 2] {
+    let mut least = USUAL_LEAST;
     let mut most = corner_limit(make(least).net());
-    while most > least + STEP && share_with_room(&make(most)) < MOST_TILES {
+    let share = |turn: f64, roomy: &dyn Fn(&C, TileId) -> bool| {
+        let canvas = make(turn);
+        let tiles: Vec<TileId> = canvas.net().tiles.ids().filter(|&t| canvas.holds(t)).collect();
+        let count = tiles.iter().filter(|&&t| roomy(&canvas, t)).count();
+        count as f64 / tiles.len().max(1) as f64
+    };
+    let within = |canvas: &C, tile: TileId| has_room(&canvas.lines(tile));
+    while most > least + STEP && share(most, &within) < MOST_TILES {
         most -= STEP;
     }
+    let open = |canvas: &C, tile: TileId| shortest_side(canvas, tile) >= OPEN * diameter;
+    while least > STEP && share(least - STEP, &open) >= MOST_TILES {
+        least -= STEP;
+    }
     [least, most]
+}
+
+/// The least turn for tiles of any size, radians: 8°.
+const USUAL_LEAST: f64 = 0.1396;
+
+/// Sides of a unit, in diameters, at which turns below [`USUAL_LEAST`] are safe: room for
+/// the rod that passes, and for the overhang of the one that ends beside it.
+const OPEN: f64 = 4.0;
+
+/// The shortest side of a tile's unit on the surface, mm; 0 where it has none.
+fn shortest_side(canvas: &impl Canvas, tile: TileId) -> f64 {
+    let Some(unit) = FlatUnit::new(&canvas.lines(tile)) else { return 0.0 };
+    let place = |&p: &Point2<f64>| canvas.place(tile, p).map(|s| s.position);
+    let contacts: Vec<Point3> = unit.contacts.iter().filter_map(place).collect();
+    let n = contacts.len();
+    (0..n).map(|i| (contacts[i] - contacts[(i + 1) % n]).norm()).fold(f64::INFINITY, f64::min)
 }
 
 /// Steps in which the greatest turn is lowered, radians: half a degree.
@@ -58,13 +87,7 @@ fn corner_limit(net: &Net) -> f64 {
     degrees.to_radians()
 }
 
-/// Part of the tiles whose contacts all lie well within them.
-fn share_with_room(canvas: &impl Canvas) -> f64 {
-    let tiles: Vec<TileId> = canvas.net().tiles.ids().filter(|&t| canvas.holds(t)).collect();
-    let roomy = tiles.iter().filter(|&&t| has_room(&canvas.lines(t))).count();
-    roomy as f64 / tiles.len().max(1) as f64
-}
-
+/// Whether the contacts of a tile all lie well within it.
 fn has_room(rods: &[Line]) -> bool {
     let n = rods.len();
     let Some(unit) = FlatUnit::new(rods) else { return false };
@@ -125,7 +148,6 @@ mod tests {
     use super::*;
     use crate::frame::canvas::{MeshCanvas, SphereCanvas};
     use crate::ids::{Id, IdVec, VertexId};
-    use crate::surface::Point3;
     use crate::tiling::conway::Notation;
     use crate::tiling::midsphere::midsphere;
 
@@ -133,7 +155,7 @@ mod tests {
         let notation: Notation = "aI/2".parse().expect("a notation");
         let form = midsphere(&notation.polyhedron()).expect("round");
         let canvas = SphereCanvas::new(&form, 300.0, Some(0.0), 0.0, 0.1);
-        let turns = safe_turns(|turn| canvas.turned(turn));
+        let turns = safe_turns(|turn| canvas.turned(turn), diameter);
         fit_turn(|turn| canvas.turned(turn), turns, diameter).expect("units")
     }
 
@@ -152,7 +174,8 @@ mod tests {
                     [v, v + 1, v + 6, v + 5].map(VertexId::new).to_vec()
                 })
                 .collect();
-            let [_, most] = safe_turns(|turn| MeshCanvas::new(&points, &faces, turn));
+            let make = |turn| MeshCanvas::new(&points, &faces, turn);
+            let [_, most] = safe_turns(make, 0.01);
             most.to_degrees()
         };
         assert!((limit(0.0) - 36.0).abs() < 1e-9);
@@ -162,16 +185,15 @@ mod tests {
 
     #[test]
     fn the_rise_meets_the_diameter_where_it_can() {
-        let thin = on_sphere(0.5);
-        let thick = on_sphere(14.0);
-        let [low, high] = [8f64.to_radians(), 24f64.to_radians()];
-        assert_eq!((thin.by, thin.turn), (FitBy::TurnLimit, low));
+        let (thin, thick) = (on_sphere(0.05), on_sphere(14.0));
+        let high = 24f64.to_radians();
+        assert!(thin.turn < 0.1 * USUAL_LEAST && thin.rise < 0.1, "{thin:?}");
         assert_eq!(thick.by, FitBy::TurnLimit);
         assert!(thick.turn > high - 2.0 * STEP && thick.turn <= high);
-        let diameter = (thin.rise + on_sphere(14.0).rise) / 2.0;
+        let diameter = thick.rise / 2.0;
         let fit = on_sphere(diameter);
         assert_eq!(fit.by, FitBy::Turn);
         assert!((fit.rise / diameter - 1.0).abs() < 1e-3, "{fit:?}");
-        assert!(low < fit.turn && fit.turn < high);
+        assert!(thin.turn < fit.turn && fit.turn < high);
     }
 }
