@@ -6,7 +6,7 @@ use crate::ids::{Id, VertexId};
 use crate::surface::Mesh;
 use crate::surface::samples::{grid::revolve, sample};
 use crate::surface::topology::Topology;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Cells along a side of [`grid`].
 const CELLS: usize = 24;
@@ -51,6 +51,24 @@ fn pocket(edge: f64) -> Mesh {
         let radius = 30.0 * round.sin() + 15.0 * (1.0 - lip.cos()) + plate;
         [radius, 30.0 * (1.0 - round.cos()) + wall + 15.0 * lip.sin()]
     })
+}
+
+/// A ball of radius 100 mm, open at the bottom by a hole of six edges, so that all of it
+/// has to go through there. With slivers, every eighth triangle is cut in three at a
+/// vertex where one of the corners is nearly 180°.
+fn ball(edge: f64, slivers: bool) -> Mesh {
+    let profile = |s: f64| [100.0 * (s / 100.0).sin(), 100.0 * (s / 100.0).cos()];
+    let mut mesh = revolve(100.0 * PI - edge / 2.0, edge, profile);
+    for f in mesh.triangles.ids().skip(3).step_by(8).filter(|_| slivers) {
+        let corners = mesh.triangles[f];
+        let [a, b, c] = mesh.corners(f).map(|p| p.coords);
+        let middle = mesh.points.push((a * 0.46 + b * 0.46 + c * 0.08).into());
+        let [first, second, third] = [0, 1, 2].map(|k| [corners[k], corners[(k + 1) % 3], middle]);
+        mesh.triangles[f] = first;
+        mesh.triangles.push(second);
+        mesh.triangles.push(third);
+    }
+    mesh
 }
 
 fn bits(flat: &[Point2<f64>]) -> Vec<[u64; 2]> {
@@ -153,6 +171,25 @@ fn abf_maps_a_deep_pocket_better_than_lscm() {
     assert!(a.mean_angle <= l.mean_angle, "{a:?} {l:?}");
     assert_eq!(l.steps, 0);
     assert!(a.steps > 1);
+}
+
+/// The least sum of squares has angles below zero at the hole.
+#[test]
+fn a_ball_goes_through_a_hole_of_six_edges() {
+    for slivers in [false, true] {
+        let mesh = ball(14.0, slivers);
+        let topology = Topology::new(&mesh).unwrap();
+        let rim = topology.border_loops().concat();
+        assert_eq!(rim.len(), 6);
+        let sheet = Sheet::new(&mesh, &topology);
+        // Not by `conformal`, which refuses maps that fold.
+        let lscm = layout(&sheet, &sheet.angles, [rim[0], rim[3]], 100.0).unwrap();
+        let lscm = distortion::measure(&mesh, &topology, &sheet.angles, &lscm.into());
+        let chart = chart_of(mesh, Method::Abf);
+        let d = chart.distortion();
+        assert!(d.fallback.is_none() && d.steps < 12, "{d:?}");
+        assert!(d.mean_angle < 0.3 * lscm.mean_angle, "{d:?} {lscm:?}");
+    }
 }
 
 #[test]
