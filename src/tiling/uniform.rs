@@ -1,70 +1,52 @@
-//! The uniform tilings with polygons up to hexagons, from exact lattice data.
+//! k-uniform tilings: edge to edge, of regular polygons, with k kinds of vertices.
 //!
-//! A tiling is given by two translations and the vertices of one cell. Its edges
-//! are the pairs at distance one; its tiles follow from sorting the edges round
+//! A tiling is given by two translations and the vertices of one cell ([`table`]). Its
+//! edges are the pairs at distance one; its tiles follow from sorting the edges round
 //! each vertex by direction. Vertex configurations as in Grünbaum and Shephard,
-//! *Tilings and Patterns*, section 2.1.
+//! *Tilings and Patterns*, sections 2.1 and 2.2.
+//!
+//! Vertices at distance one are always joined. The segment between two that are not
+//! would leave the first through a side of a tile on which it does not lie, and come to
+//! the last likewise; a corner of a regular polygon is at least √3/2 away from the sides
+//! that do not end there, so that the segment is at least √3 long.
+
+#[cfg(test)]
+mod symmetry;
+mod table;
+
+pub use table::UNIFORM;
 
 use super::lattice::{DIRECTIONS, Lattice};
 use super::{Net, Tiling};
 use nalgebra::{Point2, Vector2};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// Terms `(count, k)` of a sum of count · ζ^k; ζ = e^{iπ/12}.
-type Sum = &'static [(i64, usize)];
-
-/// A uniform tiling: every vertex has the same polygons round it.
+/// A k-uniform tiling: a row of the table.
 #[derive(Debug)]
 pub struct UniformTiling {
-    /// The vertex configuration, e.g. `3.6.3.6`.
+    /// The polygons round each kind of vertex, e.g. `3.6.3.6`, and for k > 1
+    /// `3.3.6.6+3.6.3.6`; a number follows where two tilings share them, as in
+    /// `3.3.3.4.4+4.4.4.4-2`.
     pub name: &'static str,
-    translations: [Sum; 2],
-    seeds: &'static [Sum],
+    /// Two walks from any vertex to vertices that see the same; they span a cell.
+    translations: [&'static str; 2],
+    /// The vertices of one cell, each by a walk from the origin, with spaces between.
+    seeds: &'static str,
 }
 
-/// The corners of a hexagon of unit radius about the origin.
-const HEXAGON: &[Sum] = &[&[(1, 0)], &[(1, 4)], &[(1, 8)], &[(1, 12)], &[(1, 16)], &[(1, 20)]];
+/// Where a walk from the origin leads. Each letter is a step of one edge: `a` along 0°,
+/// `b` along 15° and so on to `x`; a dot is no step.
+fn walk(steps: &str) -> Lattice {
+    steps
+        .bytes()
+        .filter(u8::is_ascii_lowercase)
+        .fold(Lattice::ZERO, |at, letter| at + Lattice::root(usize::from(letter - b'a')))
+}
 
-/// All uniform tilings that are known here.
-pub const UNIFORM: &[UniformTiling] = &[
-    UniformTiling { name: "3.3.3.3.3.3", translations: [&[(1, 0)], &[(1, 4)]], seeds: &[&[]] },
-    UniformTiling { name: "4.4.4.4", translations: [&[(1, 0)], &[(1, 6)]], seeds: &[&[]] },
-    UniformTiling {
-        name: "6.6.6",
-        translations: [&[(1, 0), (1, 4)], &[(1, 4), (1, 8)]],
-        seeds: &[&[], &[(1, 0)]],
-    },
-    UniformTiling {
-        name: "3.6.3.6",
-        translations: [&[(2, 0)], &[(2, 4)]],
-        seeds: &[&[], &[(1, 0)], &[(1, 4)]],
-    },
-    UniformTiling {
-        name: "3.4.6.4",
-        translations: [&[(1, 0), (1, 2), (1, 4)], &[(1, 4), (1, 6), (1, 8)]],
-        seeds: HEXAGON,
-    },
-    UniformTiling {
-        name: "3.3.3.4.4",
-        translations: [&[(1, 0)], &[(1, 4), (1, 6)]],
-        seeds: &[&[], &[(1, 6)]],
-    },
-    UniformTiling {
-        name: "3.3.4.3.4",
-        translations: [&[(1, 0), (1, 2)], &[(1, 6), (1, 8)]],
-        seeds: &[&[], &[(1, 0)], &[(1, 4)], &[(1, 8)]],
-    },
-    UniformTiling {
-        name: "3.3.3.3.6",
-        translations: [&[(2, 0), (1, 4)], &[(2, 4), (1, 8)]],
-        seeds: HEXAGON,
-    },
-];
-
-/// Vertices are made this far, in edges, beyond the region asked for, so that
-/// the tiles at its border are complete. A hexagon is two edges wide; less than
-/// that and holes at the rim could pass for tiles.
-const RIM: f64 = 3.0;
+/// Vertices are made this far, in edges, beyond the box asked for. Every vertex in the
+/// box must have all its edges: with less than one, tiles at its border would be merged
+/// or lost; more only costs time.
+const RIM: f64 = 1.5;
 
 impl UniformTiling {
     /// The tiling of this vertex configuration.
@@ -72,9 +54,15 @@ impl UniformTiling {
         UNIFORM.iter().find(|t| t.name == name)
     }
 
-    /// The numbers of sides of its polygons, as they stand round a vertex.
-    pub fn polygons(&self) -> impl Iterator<Item = usize> + '_ {
-        self.name.split('.').filter_map(|sides| sides.parse().ok())
+    /// The polygons round each kind of vertex, by their numbers of sides.
+    pub fn configurations(&self) -> impl Iterator<Item = Vec<usize>> + '_ {
+        let plain = self.name.split_once('-').map_or(self.name, |(plain, _)| plain);
+        plain.split('+').map(|kind| kind.split('.').filter_map(|n| n.parse().ok()).collect())
+    }
+
+    /// The numbers of sides of its polygons, each once, ascending.
+    pub fn polygons(&self) -> BTreeSet<usize> {
+        self.configurations().flatten().collect()
     }
 
     /// All tiles that lie wholly in the box `[low, high]`; unit edge length, a
@@ -100,29 +88,29 @@ impl UniformTiling {
 
     /// Vertices in the box and its rim, each with the directions of its edges.
     fn vertices(&self, low: Point2<f64>, high: Point2<f64>) -> BTreeMap<Lattice, PatchVertex> {
-        let [t1, t2] = self.translations.map(Lattice::sum);
+        let [t1, t2] = self.translations.map(walk);
         let (e1, e2) = (t1.point().coords, t2.point().coords);
         let det = e1.perp(&e2);
-        // Lattice coordinates of the corners of the grown box bound the cells.
-        let corners = [(low.x, low.y), (low.x, high.y), (high.x, low.y), (high.x, high.y)];
-        let mut ranges = [(f64::MAX, f64::MIN); 2];
-        for (x, y) in corners {
-            let p = Vector2::new(x, y);
-            for (range, c) in ranges.iter_mut().zip([p.perp(&e2) / det, e1.perp(&p) / det]) {
-                *range = (range.0.min(c), range.1.max(c));
-            }
-        }
-        let cells = ranges
-            .map(|(lo, hi)| ((lo - 2.0 * RIM).floor() as i64, (hi + 2.0 * RIM).ceil() as i64));
+        let rim = Vector2::new(RIM, RIM);
+        let (low, high) = (low - rim, high + rim);
         let mut found = BTreeMap::new();
-        for i in cells[0].0..=cells[0].1 {
-            for j in cells[1].0..=cells[1].1 {
-                for seed in self.seeds {
-                    let at = Lattice::sum(seed) + t1 * i + t2 * j;
-                    let p = at.point();
-                    let inside = |lo: f64, x: f64, hi: f64| lo - RIM <= x && x <= hi + RIM;
-                    if inside(low.x, p.x, high.x) && inside(low.y, p.y, high.y) {
-                        found.insert(at, PatchVertex { index: 0, point: p, directions: 0 });
+        for seed in self.seeds.split(' ').map(walk) {
+            // Lattice coordinates of the box's corners, seen from the seed, bound the cells.
+            let corners = [(low.x, low.y), (low.x, high.y), (high.x, low.y), (high.x, high.y)];
+            let mut ranges = [(f64::MAX, f64::MIN); 2];
+            for (x, y) in corners {
+                let p = Point2::new(x, y) - seed.point();
+                for (range, c) in ranges.iter_mut().zip([p.perp(&e2) / det, e1.perp(&p) / det]) {
+                    *range = (range.0.min(c), range.1.max(c));
+                }
+            }
+            let cells = ranges.map(|(lo, hi)| lo.floor() as i64..=hi.ceil() as i64);
+            for i in cells[0].clone() {
+                for j in cells[1].clone() {
+                    let at = seed + t1 * i + t2 * j;
+                    let point = at.point();
+                    if low <= point && point <= high {
+                        found.insert(at, PatchVertex { index: 0, point, directions: 0 });
                     }
                 }
             }
@@ -203,6 +191,7 @@ impl PatchMaker<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     /// The polygons round a vertex whose tiles are all there, as a cycle.
     fn configuration(tiling: &Tiling, vertex: usize) -> Option<Vec<usize>> {
@@ -230,18 +219,19 @@ mod tests {
     }
 
     #[test]
-    fn every_inner_vertex_has_the_configuration_of_its_name() {
+    fn every_inner_vertex_has_a_configuration_of_the_name_and_each_occurs() {
         for kind in UNIFORM {
-            let tiling = kind.patch(Point2::new(-6.0, -5.0), Point2::new(6.0, 5.0));
-            let wanted: Vec<usize> = kind.polygons().collect();
-            let mut complete = 0;
+            let tiling = kind.patch(Point2::new(-8.0, -7.0), Point2::new(8.0, 7.0));
+            let wanted: Vec<Vec<usize>> = kind.configurations().collect();
+            let mut complete = vec![0; wanted.len()];
             for v in 0..tiling.vertices.len() {
                 if let Some(found) = configuration(&tiling, v) {
-                    assert!(same_cycle(&found, &wanted), "{}: {found:?}", kind.name);
-                    complete += 1;
+                    let which = wanted.iter().position(|w| same_cycle(&found, w));
+                    complete[which.unwrap_or_else(|| panic!("{}: {found:?}", kind.name))] += 1;
                 }
             }
-            assert!(complete > 30, "{}: {complete} complete vertices", kind.name);
+            assert!(complete.iter().all(|&n| n > 3), "{}: {complete:?}", kind.name);
+            assert!(complete.iter().sum::<usize>() > 30, "{}: {complete:?}", kind.name);
         }
     }
 
@@ -258,12 +248,14 @@ mod tests {
                         p.perp(&(tiling.vertices[tile.corners[(i + 1) % n]] - center)) / 2.0
                     })
                     .sum();
-                let regular = n as f64 / 4.0 / (std::f64::consts::PI / n as f64).tan();
+                let regular = n as f64 / 4.0 / (PI / n as f64).tan();
                 assert!((signed - regular).abs() < 1e-12, "{} {n}: {signed}", kind.name);
                 area += signed;
             }
-            // All but a rim of two edges is covered once.
-            assert!(area > 20.0 * 20.0 && area <= 24.0 * 24.0, "{}: {area}", kind.name);
+            // All but a rim as wide as the widest tile is covered once.
+            let widest = kind.polygons().last().map_or(0.0, |&n| 1.0 / (PI / n as f64).sin());
+            let inner = 24.0 - 2.0 * widest;
+            assert!(area > inner * inner && area <= 24.0 * 24.0, "{}: {area}", kind.name);
         }
     }
 
