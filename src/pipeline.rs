@@ -1,7 +1,7 @@
 //! The whole way, from a design to a finished model. Read this first; what is then
 //! drawn and written of the model stands in [`documents`](crate::documents).
 
-use crate::chart::{ChartError, PlanarChart};
+use crate::chart::{ChartError, PlanarChart, Uneven};
 use crate::design::{Design, Sphere, Tiles};
 use crate::frame::canvas::{Canvas, MeshCanvas, PlaneCanvas, SphereCanvas, TooManyUnits};
 use crate::frame::fit::{Fit, FitBy, FitError, fit};
@@ -82,21 +82,38 @@ fn on_chart(
     begin(Step::Chart);
     let topology = require_chartable(&surface)?;
     let chart = PlanarChart::new(surface.clone(), &topology, design.chart)?;
+    let distortion = chart.distortion().clone();
+    let guide = Guide::Chart { mesh: surface, distortion: distortion.clone() };
+    // What goes wrong on an uneven chart goes wrong for that.
+    in_plane(design, pattern, &chart, guide, notes, begin).map_err(|e| match distortion.uneven() {
+        Some(uneven) => BuildError::Uneven { e: Box::new(e), uneven },
+        None => e,
+    })
+}
+
+/// The same, once the surface is flat.
+fn in_plane(
+    design: &Design,
+    pattern: &'static Pattern,
+    chart: &PlanarChart,
+    guide: Guide,
+    notes: Vec<String>,
+    begin: &mut dyn FnMut(Step),
+) -> Result<Model, BuildError> {
     begin(Step::Fit);
     let turn = design.turn.unwrap_or(pattern.turn.to_radians());
     let place = |edge| Placement { origin: design.origin.into(), rotation: design.rotate, edge };
     let (canvas, fit) = match design.unit {
         None => {
-            let fit = fit(&chart, pattern, &place(design.rod), turn, design.rod)?;
-            (PlaneCanvas::new(&chart, pattern, place(fit.edge), turn)?, fit)
+            let fit = fit(chart, pattern, &place(design.rod), turn, design.rod)?;
+            (PlaneCanvas::new(chart, pattern, place(fit.edge), turn)?, fit)
         }
         Some(edge) => {
-            let canvas = PlaneCanvas::new(&chart, pattern, place(edge), turn)?;
+            let canvas = PlaneCanvas::new(chart, pattern, place(edge), turn)?;
             let fit = as_given(&canvas, turn);
             (canvas, fit)
         }
     };
-    let guide = Guide::Chart { mesh: surface, distortion: chart.distortion().clone() };
     finish(design, &canvas, fit, guide, notes, begin)
 }
 
@@ -255,6 +272,9 @@ pub enum BuildError {
     /// The frame.
     #[error(transparent)]
     Form(#[from] FormError),
+    /// Any of these, on a surface that is far from even when laid flat.
+    #[error("{e}. When the surface is laid flat, {uneven}: {UNEVEN_ADVICE}")]
+    Uneven { e: Box<BuildError>, uneven: Uneven },
     /// The frame, with rods that do not suit its units.
     #[error("{e}. Rods of {suits:.1} mm (--rod) would suit these units best")]
     Unsuited { e: FormError, suits: f64 },
@@ -262,6 +282,9 @@ pub enum BuildError {
     #[error("{0}. {hint}", hint = sentence(&.0.hint()))]
     Cut(#[from] CutError),
 }
+
+/// What to do about units of very different size.
+pub const UNEVEN_ADVICE: &str = "cut the surface (--cut), or use its own polygons (--pattern mesh)";
 
 /// A hint after a message: in its line, or below where the message ends in a table.
 fn advice(message: &str, hint: &str) -> String {

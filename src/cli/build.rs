@@ -8,7 +8,7 @@ use crate::design::{Design, DesignError, Settings};
 use crate::documents;
 use crate::frame::fit::{Fit, FitBy};
 use crate::frame::guide::Guide;
-use crate::pipeline::{self, Model, Step};
+use crate::pipeline::{self, Model, Step, UNEVEN_ADVICE};
 use crate::write::folder::{FolderError, OutputFolder};
 use std::path::{Path, PathBuf};
 
@@ -134,9 +134,7 @@ fn warnings(design: &Design, model: &Model) -> Vec<String> {
     warnings.extend(ill_fitting(design, &model.fit));
     if let Guide::Chart { distortion, .. } = &model.guide {
         warnings.extend(distortion.fallback.clone());
-        warnings.extend(distortion.uneven().map(|uneven| {
-            format!("{uneven}: cut the surface (--cut), or use its own polygons (--pattern mesh)")
-        }));
+        warnings.extend(distortion.uneven().map(|uneven| format!("{uneven}: {UNEVEN_ADVICE}")));
     }
     let frame = &model.formed.frame;
     if frame.supports.len() < 3 {

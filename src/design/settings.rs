@@ -23,7 +23,8 @@ pub struct Settings {
     #[arg(long, value_name = "LENGTH")]
     pub rod: Option<Length>,
 
-    /// Longest horizontal side of the model [default: the file's own size, mm]
+    /// Longest horizontal side of the model [default: the file's own size, mm; 600mm for a
+    /// sphere]
     #[arg(long, value_name = "LENGTH")]
     pub span: Option<Length>,
 

@@ -79,7 +79,7 @@ pub enum FormError {
     /// Too much had to be left out.
     #[error(
         "{dropped} of {total} units of edge {edge:.1} mm do not work with {diameter} mm rods; the \
-         first: {first}. {advice}, or try another turn (--turn) or a shorter overhang (--overhang)"
+         first: {first}. {advice}, another turn (--turn) or a shorter overhang (--overhang)"
     )]
     TooManyDropped {
         dropped: usize,

@@ -215,7 +215,7 @@ fn what_cannot_be_is_refused_with_the_reason() {
         (&["sphere:aI", "--unit", "50mm"], "unit does nothing here"),
         (&["sphere:aI", "--warp", "9"], "from 0.3125 to 3.2"),
         (&["sphere:aI", "--cut", "z=400mm"], "passes by the sphere"),
-        (&["sphere:aI", "--turn", "60"], "between 8 and 24 degrees"),
+        (&["sphere:aI", "--turn", "60"], "and 24 degrees, either way round"),
         (&["sphere:aI/2", "--rod", "90mm"], "rods of at most 15.2 mm"),
         (&[&igloo, "--warp", "1.2"], "warp does nothing here"),
         (&[&igloo, "--cut", "z=900mm"], "reaches from 0 to 220 mm"),

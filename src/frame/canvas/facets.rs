@@ -212,8 +212,7 @@ impl Canvas for MeshCanvas {
         Sizing {
             larger: "a coarser mesh or a larger span (--span)",
             smaller: "a finer mesh",
-            fitting: "Leave out --turn to let it be fitted to the rods, or make the polygons \
-                      more even",
+            fitting: "Try more even polygons, a turn fitted to the rods (without --turn)",
         }
     }
 }

@@ -151,8 +151,7 @@ impl<C: Chart> Canvas for PlaneCanvas<'_, C> {
         Sizing {
             larger: "larger units (--unit)",
             smaller: "smaller units (--unit)",
-            fitting: "Leave out --unit to let the units be fitted to the rods, or try another \
-                      pattern (--pattern)",
+            fitting: "Try units fitted to the rods (without --unit), another pattern (--pattern)",
         }
     }
 }

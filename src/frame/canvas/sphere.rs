@@ -163,7 +163,7 @@ impl Canvas for SphereCanvas {
         Sizing {
             larger: "a lower frequency or a larger span (--span)",
             smaller: "a higher frequency, or cut less away (--cut)",
-            fitting: "Leave out --turn to let it be fitted to the rods, or try another notation",
+            fitting: "Try another notation, a turn fitted to the rods (without --turn)",
         }
     }
 }
