@@ -130,12 +130,12 @@ fn not_negative(key: &'static str, length: Option<Length>) -> Result<Option<f64>
 fn pattern(name: Option<&str>) -> Result<&'static Pattern, DesignError> {
     let name = name.unwrap_or(LIBRARY[0].name);
     Pattern::named(name).ok_or_else(|| {
-        let known: Vec<&str> = LIBRARY.iter().map(|p| p.name).collect();
-        setting(
-            "pattern",
-            name,
-            format!("no such pattern; there are {} and mesh", known.join(", ")),
-        )
+        let near = Pattern::near(name).join(", ");
+        let problem = format!(
+            "no such pattern; the nearest are {near}. README.md lists all {}, and mesh",
+            LIBRARY.len()
+        );
+        setting("pattern", name, problem)
     })
 }
 

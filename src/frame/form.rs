@@ -122,8 +122,14 @@ pub fn form(canvas: &impl Canvas, settings: &FormSettings) -> Result<Formed, For
     let mut total = None;
     loop {
         let tiles = crop(canvas, &held);
-        if tiles.len() < LEAST_UNITS && dropped.is_empty() {
-            return Err(too_few(tiles.len(), canvas));
+        if tiles.len() < LEAST_UNITS {
+            // Where one large unit held the others together, they go with it.
+            return Err(match (dropped.first(), total) {
+                (Some(first), Some(all)) => {
+                    too_many(all - tiles.len(), all, &first.reason, canvas, settings)
+                }
+                _ => too_few(tiles.len(), canvas),
+            });
         }
         let all = *total.get_or_insert(tiles.len());
         let lost = |more: usize| (dropped.len() + more) as f64 > DROPPED_PART * all as f64;

@@ -5,10 +5,12 @@
 //! each vertex by direction. Vertex configurations as in Grünbaum and Shephard,
 //! *Tilings and Patterns*, sections 2.1 and 2.2.
 //!
-//! Vertices at distance one are always joined. The segment between two that are not
-//! would leave the first through a side of a tile on which it does not lie, and come to
-//! the last likewise; a corner of a regular polygon is at least √3/2 away from the sides
-//! that do not end there, so that the segment is at least √3 long.
+//! Vertices at distance one are always joined, so that the table need not name edges. A
+//! segment between two that are not is a diagonal of a tile, which is longer than one; or
+//! runs through a third vertex, and is longer still; or else leaves the tile at its one
+//! end through a side that does not start there, and comes to its other end in the same
+//! way. A corner of a regular polygon is at least √3/2 from such a side, so that this
+//! segment is at least √3 long.
 
 #[cfg(test)]
 mod symmetry;
