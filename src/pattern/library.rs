@@ -214,10 +214,11 @@ impl Pattern {
         LIBRARY.iter().find(|p| p.name == name)
     }
 
-    /// The names most like one that is not there, the likeliest first.
+    /// The names most like one that is not there, the likeliest first: those that begin
+    /// with it, as where `-1` was forgotten, then those that take fewest changes.
     pub fn near(name: &str) -> Vec<&'static str> {
         let mut names: Vec<&'static str> = LIBRARY.iter().map(|p| p.name).collect();
-        names.sort_by_cached_key(|known| changes(name, known));
+        names.sort_by_cached_key(|known| (!known.starts_with(name), changes(name, known)));
         names.truncate(SUGGESTIONS);
         names
     }
