@@ -40,11 +40,6 @@ impl Lattice {
         Self(c)
     }
 
-    /// The sum of `count · ζ^k` over the terms `(count, k)`.
-    pub fn sum(terms: &[(i64, usize)]) -> Self {
-        terms.iter().fold(Self::ZERO, |sum, &(count, k)| sum + Self::root(k) * count)
-    }
-
     /// As a point of the plane.
     pub fn point(self) -> Point2<f64> {
         let mut p = Point2::origin();
@@ -102,7 +97,7 @@ mod tests {
 
     #[test]
     fn the_root_of_three_is_a_sum_of_two_roots() {
-        let p = Lattice::sum(&[(1, 2), (1, 22)]).point();
+        let p = (Lattice::root(2) + Lattice::root(22)).point();
         assert!((p.x - 3f64.sqrt()).abs() < 1e-15 && p.y.abs() < 1e-15);
     }
 }
