@@ -3,7 +3,7 @@
 
 use crate::chart::{ChartError, PlanarChart, Uneven};
 use crate::design::{Design, Sphere, Tiles};
-use crate::frame::canvas::{Canvas, MeshCanvas, PlaneCanvas, SphereCanvas, TooManyUnits};
+use crate::frame::canvas::{Canvas, MeshTiles, PlaneCanvas, SphereTiles, TooManyUnits};
 use crate::frame::fit::{Fit, FitBy, FitError, fit};
 use crate::frame::fit_turn::{fit_turn, safe_turns};
 use crate::frame::form::{FormError, FormSettings, Formed, form, median_rise};
@@ -81,11 +81,9 @@ fn on_chart(
         prepare(reading, design.up, design.component, design.cut, design.span)?;
     begin(Step::Chart);
     let topology = require_chartable(&surface)?;
-    let chart = PlanarChart::new(surface.clone(), &topology, design.chart)?;
-    let distortion = chart.distortion().clone();
-    let guide = Guide::Chart { mesh: surface, distortion: distortion.clone() };
+    let chart = PlanarChart::new(surface, &topology, design.chart)?;
     // What goes wrong on an uneven chart goes wrong for that.
-    in_plane(design, pattern, &chart, guide, notes, begin).map_err(|e| match distortion.uneven() {
+    in_plane(design, pattern, &chart, notes, begin).map_err(|e| match chart.distortion().uneven() {
         Some(uneven) => BuildError::Uneven { e: Box::new(e), uneven },
         None => e,
     })
@@ -96,7 +94,6 @@ fn in_plane(
     design: &Design,
     pattern: &'static Pattern,
     chart: &PlanarChart,
-    guide: Guide,
     notes: Vec<String>,
     begin: &mut dyn FnMut(Step),
 ) -> Result<Model, BuildError> {
@@ -114,6 +111,7 @@ fn in_plane(
             (canvas, fit)
         }
     };
+    let guide = Guide::Chart { mesh: chart.mesh().clone(), distortion: chart.distortion().clone() };
     finish(design, &canvas, fit, guide, notes, begin)
 }
 
@@ -124,9 +122,9 @@ fn on_polygons(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, Bu
     let notes = reading.notes.clone();
     let mesh = prepare_polygons(reading, design.up, design.component, design.cut, design.span)?;
     begin(Step::Fit);
-    let canvas = MeshCanvas::new(&mesh.points, &mesh.faces, 0.0);
-    let fit = turned_fit(design, |turn| canvas.turned(turn))?;
-    finish(design, &canvas.turned(fit.turn), fit, Guide::Mesh(mesh), notes, begin)
+    let tiles = MeshTiles::new(&mesh.points, &mesh.faces);
+    let fit = turned_fit(design, |turn| tiles.turned(turn))?;
+    finish(design, &tiles.turned(fit.turn), fit, Guide::Mesh(mesh), notes, begin)
 }
 
 /// A polyhedron on a sphere.
@@ -144,10 +142,10 @@ fn on_sphere(
     if let Some(at) = cut.filter(|at| !(-radius..radius).contains(at)) {
         return Err(BuildError::CutPastSphere { at, radius });
     }
-    let canvas = SphereCanvas::new(&form, radius, cut, design.rotate, 0.0);
-    let fit = turned_fit(design, |turn| canvas.turned(turn))?;
-    let guide = Guide::Sphere { faces: canvas.net().tiles.len(), radius, low: canvas.low() };
-    finish(design, &canvas.turned(fit.turn), fit, guide, Vec::new(), begin)
+    let tiles = SphereTiles::new(&form, radius, cut, design.rotate);
+    let fit = turned_fit(design, |turn| tiles.turned(turn))?;
+    let guide = Guide::Sphere { faces: tiles.faces(), radius, low: tiles.low() };
+    finish(design, &tiles.turned(fit.turn), fit, guide, Vec::new(), begin)
 }
 
 /// Everything after the tiles are found.

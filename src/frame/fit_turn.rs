@@ -146,7 +146,7 @@ fn require_size(canvas: &impl Canvas, diameter: f64) -> Result<(), FormError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::canvas::{MeshCanvas, SphereCanvas};
+    use crate::frame::canvas::{MeshTiles, SphereTiles};
     use crate::ids::{Id, IdVec, VertexId};
     use crate::tiling::conway::Notation;
     use crate::tiling::midsphere::midsphere;
@@ -154,9 +154,9 @@ mod tests {
     fn on_sphere(diameter: f64) -> Fit {
         let notation: Notation = "aI/2".parse().expect("a notation");
         let form = midsphere(&notation.polyhedron()).expect("round");
-        let canvas = SphereCanvas::new(&form, 300.0, Some(0.0), 0.0, 0.1);
-        let turns = safe_turns(|turn| canvas.turned(turn), diameter);
-        fit_turn(|turn| canvas.turned(turn), turns, diameter).expect("units")
+        let tiles = SphereTiles::new(&form, 300.0, Some(0.0), 0.0);
+        let turns = safe_turns(|turn| tiles.turned(turn), diameter);
+        fit_turn(|turn| tiles.turned(turn), turns, diameter).expect("units")
     }
 
     /// In regular tiles the limit is that of the corners; skewed ones lower it.
@@ -174,7 +174,8 @@ mod tests {
                     [v, v + 1, v + 6, v + 5].map(VertexId::new).to_vec()
                 })
                 .collect();
-            let make = |turn| MeshCanvas::new(&points, &faces, turn);
+            let tiles = MeshTiles::new(&points, &faces);
+            let make = |turn| tiles.turned(turn);
             let [_, most] = safe_turns(make, 0.01);
             most.to_degrees()
         };

@@ -14,19 +14,26 @@ use crate::chart::SurfacePoint;
 use crate::ids::{Id, IdVec, TileEdgeId, TileId, VertexId};
 use crate::pattern::{FlatUnit, Line};
 use crate::surface::{Point3, Vector3};
-use crate::tiling::Net;
+use crate::tiling::{Net, TileEdge};
 use nalgebra::{Matrix2, Point2, Rotation2, Vector2};
 use std::f64::consts::TAU;
 
-/// A polygon mesh with the turn of its rods.
+/// The polygons of a mesh, ready to be woven on at any turn.
 #[derive(Clone, Debug)]
-pub struct MeshCanvas {
+pub struct MeshTiles {
     net: Net,
-    points: IdVec<VertexId, Point3>,
+    /// The middles of the edges.
+    middles: IdVec<TileEdgeId, Point3>,
     frames: IdVec<TileId, Frame>,
     ranks: IdVec<TileId, [f64; 2]>,
-    turn: f64,
     edge: f64,
+}
+
+/// A polygon mesh with the turn of its rods.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshCanvas<'a> {
+    tiles: &'a MeshTiles,
+    turn: f64,
 }
 
 /// The plane of a tile, and how the tile is stretched in it.
@@ -133,34 +140,31 @@ fn stretch(corners: &[Point2<f64>]) -> Matrix2<f64> {
     sum * (2.0 / n)
 }
 
-impl MeshCanvas {
-    /// Takes the polygons of a mesh as tiles, corners counter-clockwise seen from
-    /// outside; rods are turned by `turn` radians.
-    pub fn new(points: &IdVec<VertexId, Point3>, faces: &[Vec<VertexId>], turn: f64) -> Self {
+impl MeshTiles {
+    /// Takes the polygons of a mesh as tiles, corners counter-clockwise seen from outside.
+    pub fn new(points: &IdVec<VertexId, Point3>, faces: &[Vec<VertexId>]) -> Self {
         let corners = |face: &Vec<VertexId>| face.iter().map(|v| v.index()).collect();
         let net = Net::new(faces.iter().map(corners));
         let frame =
             |face: &Vec<VertexId>| Frame::new(&face.iter().map(|&v| points[v]).collect::<Vec<_>>());
         let frames: IdVec<TileId, Frame> = faces.iter().map(frame).collect();
-        let length = |ends: [usize; 2]| {
-            let [a, b] = ends.map(|v| points[VertexId::new(v)]);
-            (b - a).norm()
-        };
-        let total: f64 = net.edges.iter().map(|e| length(e.ends)).sum();
-        let middles: Vec<Vector3> = frames.iter().map(|f| f.middle.coords).collect();
+        let ends = |edge: &TileEdge| edge.ends.map(|v| points[VertexId::new(v)]);
+        let length = |[a, b]: [Point3; 2]| (b - a).norm();
+        let total: f64 = net.edges.iter().map(|e| length(ends(e))).sum();
+        let middle = |[a, b]: [Point3; 2]| nalgebra::center(&a, &b);
+        let centers: Vec<Vector3> = frames.iter().map(|f| f.middle.coords).collect();
         Self {
-            ranks: super::ranks(&net, &middles, &top(&middles)),
+            ranks: super::ranks(&net, &centers, &top(&centers)),
             edge: total / net.edges.len().max(1) as f64,
+            middles: net.edges.iter().map(|e| middle(ends(e))).collect(),
             net,
-            points: points.clone(),
             frames,
-            turn,
         }
     }
 
-    /// The same with another turn of the rods.
-    pub fn turned(&self, turn: f64) -> Self {
-        Self { turn, ..self.clone() }
+    /// The tiles with rods turned by `turn` radians.
+    pub fn turned(&self, turn: f64) -> MeshCanvas<'_> {
+        MeshCanvas { tiles: self, turn }
     }
 }
 
@@ -172,9 +176,9 @@ fn top(middles: &[Vector3]) -> Vector3 {
     Vector3::new(middle.x, middle.y, hi.z)
 }
 
-impl Canvas for MeshCanvas {
+impl Canvas for MeshCanvas<'_> {
     fn net(&self) -> &Net {
-        &self.net
+        &self.tiles.net
     }
 
     fn holds(&self, _tile: TileId) -> bool {
@@ -182,7 +186,7 @@ impl Canvas for MeshCanvas {
     }
 
     fn rank(&self, tile: TileId) -> [f64; 2] {
-        self.ranks[tile]
+        self.tiles.ranks[tile]
     }
 
     fn middle(&self, _tile: TileId) -> Point2<f64> {
@@ -190,22 +194,19 @@ impl Canvas for MeshCanvas {
     }
 
     fn lines(&self, tile: TileId) -> Vec<Line> {
-        let frame = &self.frames[tile];
-        let middle = |&e: &TileEdgeId| {
-            let [a, b] = self.net.edges[e].ends.map(|v| self.points[VertexId::new(v)]);
-            frame.flat(nalgebra::center(&a, &b))
-        };
-        let middles: Vec<_> = self.net.tiles[tile].edges.iter().map(middle).collect();
+        let frame = &self.tiles.frames[tile];
+        let middle = |&e: &TileEdgeId| frame.flat(self.tiles.middles[e]);
+        let middles: Vec<_> = self.tiles.net.tiles[tile].edges.iter().map(middle).collect();
         rods(&middles, &frame.stretch, self.turn)
     }
 
     fn place(&self, tile: TileId, p: Point2<f64>) -> Option<SurfacePoint> {
-        let Frame { middle, normal, x, y, .. } = self.frames[tile];
+        let Frame { middle, normal, x, y, .. } = self.tiles.frames[tile];
         Some(SurfacePoint { position: middle + x * p.x + y * p.y, normal })
     }
 
     fn edge(&self) -> f64 {
-        self.edge
+        self.tiles.edge
     }
 
     fn sizing(&self) -> Sizing {
@@ -233,7 +234,8 @@ mod tests {
     #[test]
     fn units_of_a_cube_lie_in_its_faces() {
         let (points, faces) = brick();
-        let canvas = MeshCanvas::new(&points, &faces, 0.3);
+        let tiles = MeshTiles::new(&points, &faces);
+        let canvas = tiles.turned(0.3);
         assert_eq!(canvas.edge(), 1.0);
         for tile in canvas.net().tiles.ids() {
             let unit = FlatUnit::new(&canvas.lines(tile)).expect("a square");
@@ -281,7 +283,8 @@ mod tests {
     #[test]
     fn the_top_face_is_numbered_first_and_the_bottom_last() {
         let (points, faces) = brick();
-        let canvas = MeshCanvas::new(&points, &faces, 0.3);
+        let tiles = MeshTiles::new(&points, &faces);
+        let canvas = tiles.turned(0.3);
         let ring = |face: usize| canvas.rank(TileId::new(face))[0];
         assert_eq!([0, 1, 2, 3, 4, 5].map(ring), [2.0, 0.0, 1.0, 1.0, 1.0, 1.0]);
     }

@@ -11,9 +11,9 @@ pub mod fixture;
 mod plane;
 mod sphere;
 
-pub use facets::MeshCanvas;
+pub use facets::{MeshCanvas, MeshTiles};
 pub use plane::{MOST_UNITS, PlaneCanvas, TooManyUnits, most_units};
-pub use sphere::SphereCanvas;
+pub use sphere::{SphereCanvas, SphereTiles};
 
 use crate::chart::SurfacePoint;
 use crate::ids::{Id, IdVec, TileId};

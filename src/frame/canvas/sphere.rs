@@ -14,9 +14,10 @@ use crate::tiling::Net;
 use crate::tiling::midsphere::{Midscribed, nearest_to_origin};
 use nalgebra::{Point2, Unit, UnitQuaternion, Vector2};
 
-/// A sphere about the origin, tiled by a polyhedron whose edges touch it. Lengths in mm.
+/// A sphere about the origin, tiled by a polyhedron whose edges touch it, ready to be
+/// woven on at any turn. Lengths in mm.
 #[derive(Clone, Debug)]
-pub struct SphereCanvas {
+pub struct SphereTiles {
     net: Net,
     /// Unit vectors to the vertices.
     corners: Vec<Vector3>,
@@ -27,8 +28,14 @@ pub struct SphereCanvas {
     radius: f64,
     /// Tiles wholly above this height are kept; none for a whole sphere.
     cut: Option<f64>,
-    turn: f64,
     edge: f64,
+}
+
+/// A tiled sphere with the turn of its rods.
+#[derive(Clone, Copy, Debug)]
+pub struct SphereCanvas<'a> {
+    tiles: &'a SphereTiles,
+    turn: f64,
 }
 
 /// Where an edge touches the sphere, and its direction as its left tile runs through it.
@@ -72,11 +79,10 @@ impl Frame {
     }
 }
 
-impl SphereCanvas {
-    /// Lays a polyhedron on a sphere of this radius. Tiles that reach below `cut` are
-    /// left out; rods are turned by `turn` radians, the whole by `rotate` radians about
-    /// the vertical.
-    pub fn new(form: &Midscribed, radius: f64, cut: Option<f64>, rotate: f64, turn: f64) -> Self {
+impl SphereTiles {
+    /// Lays a polyhedron on a sphere of this radius, turned by `rotate` radians about the
+    /// vertical. Tiles that reach below `cut` are left out.
+    pub fn new(form: &Midscribed, radius: f64, cut: Option<f64>, rotate: f64) -> Self {
         let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), rotate);
         let vertices: Vec<Vector3> = form.vertices.iter().map(|v| about * v).collect();
         let corners: Vec<Vector3> = vertices.iter().map(|v| v.normalize()).collect();
@@ -98,14 +104,27 @@ impl SphereCanvas {
             touching,
             radius,
             cut,
-            turn,
             edge,
         }
     }
 
-    /// The same with another turn of the rods.
-    pub fn turned(&self, turn: f64) -> Self {
-        Self { turn, ..self.clone() }
+    /// The tiles with rods turned by `turn` radians.
+    pub fn turned(&self, turn: f64) -> SphereCanvas<'_> {
+        SphereCanvas { tiles: self, turn }
+    }
+
+    /// Whether a tile lies above the cut.
+    fn holds(&self, tile: TileId) -> bool {
+        let Some(cut) = self.cut else { return true };
+        let above = |p: &Vector3| p.z * self.radius >= cut - SNUG * self.radius;
+        let tile = &self.net.tiles[tile];
+        tile.corners.iter().all(|&v| above(&self.corners[v]))
+            && tile.edges.iter().all(|&e| above(&self.touching[e].at))
+    }
+
+    /// The number of faces of the polyhedron.
+    pub fn faces(&self) -> usize {
+        self.net.tiles.len()
     }
 
     /// Height of the lowest corner of the tiles that are kept, or of the whole sphere.
@@ -117,21 +136,17 @@ impl SphereCanvas {
     }
 }
 
-impl Canvas for SphereCanvas {
+impl Canvas for SphereCanvas<'_> {
     fn net(&self) -> &Net {
-        &self.net
+        &self.tiles.net
     }
 
     fn holds(&self, tile: TileId) -> bool {
-        let Some(cut) = self.cut else { return true };
-        let above = |p: &Vector3| p.z * self.radius >= cut - SNUG * self.radius;
-        let tile = &self.net.tiles[tile];
-        tile.corners.iter().all(|&v| above(&self.corners[v]))
-            && tile.edges.iter().all(|&e| above(&self.touching[e].at))
+        self.tiles.holds(tile)
     }
 
     fn rank(&self, tile: TileId) -> [f64; 2] {
-        self.ranks[tile]
+        self.tiles.ranks[tile]
     }
 
     fn middle(&self, _tile: TileId) -> Point2<f64> {
@@ -139,24 +154,24 @@ impl Canvas for SphereCanvas {
     }
 
     fn lines(&self, tile: TileId) -> Vec<Line> {
-        let frame = &self.frames[tile];
+        let frame = &self.tiles.frames[tile];
         let line = |&e: &TileEdgeId| {
-            let Touch { at, along } = self.touching[e];
-            let along = if self.net.edges[e].left == tile { along } else { -along };
+            let Touch { at, along } = self.tiles.touching[e];
+            let along = if self.tiles.net.edges[e].left == tile { along } else { -along };
             let up = Unit::new_unchecked(at);
             let inward = UnitQuaternion::from_axis_angle(&up, self.turn) * at.cross(&along);
             Line { at: frame.flat(&at), inward: frame.flat_direction(&at, &inward) }
         };
-        self.net.tiles[tile].edges.iter().map(line).collect()
+        self.tiles.net.tiles[tile].edges.iter().map(line).collect()
     }
 
     fn place(&self, tile: TileId, p: Point2<f64>) -> Option<SurfacePoint> {
-        let normal = self.frames[tile].back(p);
-        Some(SurfacePoint { position: (normal * self.radius).into(), normal })
+        let normal = self.tiles.frames[tile].back(p);
+        Some(SurfacePoint { position: (normal * self.tiles.radius).into(), normal })
     }
 
     fn edge(&self) -> f64 {
-        self.edge
+        self.tiles.edge
     }
 
     fn sizing(&self) -> Sizing {
@@ -180,9 +195,9 @@ mod tests {
     use crate::tiling::conway::Notation;
     use crate::tiling::midsphere::midsphere;
 
-    fn canvas(notation: &str, cut: Option<f64>, turn: f64) -> SphereCanvas {
+    fn tiles(notation: &str, cut: Option<f64>) -> SphereTiles {
         let notation: Notation = notation.parse().expect("a notation");
-        SphereCanvas::new(&midsphere(&notation.polyhedron()).expect("round"), 100.0, cut, 0.3, turn)
+        SphereTiles::new(&midsphere(&notation.polyhedron()).expect("round"), 100.0, cut, 0.3)
     }
 
     /// Rods keep one distance from the middle of their unit, whatever the tile: the
@@ -190,8 +205,9 @@ mod tests {
     #[test]
     fn units_are_tangent_to_a_circle_about_their_axis() {
         for notation in ["I", "aI/2", "dkI", "sC"] {
+            let tiles = tiles(notation, None);
             for turn in [-0.2f64, 0.35] {
-                let canvas = canvas(notation, None, turn);
+                let canvas = tiles.turned(turn);
                 for tile in canvas.net().tiles.ids() {
                     let lines = canvas.lines(tile);
                     let unit = FlatUnit::new(&lines).expect("a unit");
@@ -211,7 +227,8 @@ mod tests {
     /// The rod of an edge is one great circle, seen from either side.
     #[test]
     fn both_tiles_of_an_edge_see_one_rod() {
-        let canvas = canvas("aI", None, 0.3);
+        let tiles = tiles("aI", None);
+        let canvas = tiles.turned(0.3);
         for (e, edge) in canvas.net().edges.enumerate() {
             let plane = |tile: TileId| {
                 let side = canvas.net().tiles[tile].edges.iter().position(|&x| x == e)?;
@@ -233,14 +250,15 @@ mod tests {
         assert_eq!(count("O", None), 8);
         assert!(count("O", Some(1.0)) == 0);
         fn count(notation: &str, cut: Option<f64>) -> usize {
-            let canvas = canvas(notation, cut, 0.3);
-            canvas.net().tiles.ids().filter(|&t| canvas.holds(t)).count()
+            let tiles = tiles(notation, cut);
+            tiles.net.tiles.ids().filter(|&t| tiles.holds(t)).count()
         }
     }
 
     #[test]
     fn numbering_starts_at_the_top() {
-        let canvas = canvas("dI/2", None, 0.3);
+        let tiles = tiles("dI/2", None);
+        let canvas = tiles.turned(0.3);
         let first = canvas.net().tiles.ids().min_by(|&a, &b| {
             let (p, q) = (canvas.rank(a), canvas.rank(b));
             p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]))
