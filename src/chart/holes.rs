@@ -2,7 +2,7 @@
 
 use crate::ids::{Id, VertexId};
 use crate::surface::bvh::{Aabb, Bvh};
-use crate::surface::locate::closest_on_triangle;
+use crate::surface::locate::{blend, closest_on_triangle, segments_cross};
 use nalgebra::{Point2, distance};
 
 /// The triangles that fill the holes, to be kept clear of.
@@ -39,7 +39,7 @@ fn touches(triangle: &[Point2<f64>; 3], a: Point2<f64>, b: Point2<f64>, reach: f
     let of_triangle = |p: &Point2<f64>| distance(p, &nearest_of(triangle, p));
     let of_segment = |p: &Point2<f64>| distance(p, &nearest_of(&[a, b, b], p));
     inside(triangle, a)
-        || (0..3).any(|k| cross(triangle[k], triangle[(k + 1) % 3], a, b))
+        || (0..3).any(|k| segments_cross([triangle[k], triangle[(k + 1) % 3]], [a, b]))
         || [a, b].iter().any(|p| of_triangle(p) <= reach)
         || triangle.iter().any(|p| of_segment(p) <= reach)
 }
@@ -56,13 +56,7 @@ fn inside(triangle: &[Point2<f64>; 3], p: Point2<f64>) -> bool {
 }
 
 fn nearest_of(triangle: &[Point2<f64>; 3], p: &Point2<f64>) -> Point2<f64> {
-    crate::surface::locate::blend(triangle, closest_on_triangle(p, triangle))
-}
-
-/// Whether two segments cross in the inside of both.
-pub(super) fn cross(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>, d: Point2<f64>) -> bool {
-    let side = |p: Point2<f64>, q: Point2<f64>, r: Point2<f64>| (q - p).perp(&(r - p));
-    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+    blend(triangle, closest_on_triangle(p, triangle))
 }
 
 #[cfg(test)]

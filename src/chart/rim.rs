@@ -3,9 +3,9 @@
 //! Where no triangle is turned over, the map is one to one near every point; it is so as
 //! a whole when its border lines do not cross each other or themselves either.
 
-use super::holes::cross;
 use crate::ids::{IdVec, VertexId};
 use crate::surface::bvh::{Aabb, Bvh};
+use crate::surface::locate::segments_cross;
 use crate::surface::topology::{HalfedgeId, Topology};
 use nalgebra::Point2;
 
@@ -20,16 +20,15 @@ pub(super) fn first_crossing(
     let boxes: Vec<Aabb<2>> = border.iter().map(|&h| Aabb::around(&place(h))).collect();
     let tree = Bvh::new(&boxes);
     border.iter().copied().find(|&h| {
-        let [a, b] = place(h);
-        let bounds = Aabb::around(&[a, b]);
+        let segment = place(h);
+        let bounds = Aabb::around(&segment);
         let mut crossed = false;
         tree.visit(
             |near| near.overlaps(&bounds),
             |i| {
                 let other = border[i];
                 let apart = !ends(h).iter().any(|v| ends(other).contains(v));
-                let [c, d] = place(other);
-                crossed = crossed || (apart && cross(a, b, c, d));
+                crossed = crossed || (apart && segments_cross(segment, place(other)));
             },
         );
         crossed

@@ -1,10 +1,10 @@
 //! `rodwright build`: the main job.
 
-use super::Failure;
 use super::progress::Progress;
 use super::summary::summary;
 use super::terminal::{Terminal, print};
-use crate::design::{Design, DesignError, Settings};
+use super::{Failure, design_failure};
+use crate::design::{Design, Settings};
 use crate::documents;
 use crate::frame::fit::{Fit, FitBy};
 use crate::frame::guide::Guide;
@@ -82,18 +82,14 @@ fn folder_failure(e: FolderError) -> Failure {
 }
 
 fn design(args: &Args) -> Result<Design, Failure> {
-    let failure = |e: DesignError| match e {
-        DesignError::Unreadable { .. } => Failure::file(e),
-        _ => Failure::input(e),
-    };
     let from_file = match &args.design {
-        Some(file) => Settings::read(file).map_err(failure)?,
+        Some(file) => Settings::read(file).map_err(design_failure)?,
         None => Settings::default(),
     };
     let folder = args.design.as_deref().and_then(Path::parent);
     // A surface named on the command line is not looked up beside the design file.
     let folder = folder.filter(|_| args.settings.surface.is_none());
-    args.settings.clone().or(from_file).resolve(folder).map_err(failure)
+    args.settings.clone().or(from_file).resolve(folder).map_err(design_failure)
 }
 
 /// What to say of sticks that sit badly in units that were not fitted to them.

@@ -2,8 +2,8 @@
 
 use super::progress::Progress;
 use super::terminal::Terminal;
-use super::{Failure, write_result};
-use crate::design::{Design, DesignError, Settings};
+use super::{Failure, design_failure, write_result};
+use crate::design::{Design, Settings};
 use crate::drawing::svg;
 use crate::pipeline;
 use crate::sheets::{Exhibit, contact_sheet};
@@ -59,10 +59,7 @@ fn exhibit(file: &Path, quiet: bool, terminal: &Terminal) -> Result<Exhibit, Fai
 }
 
 fn read(file: &Path) -> Result<Design, Failure> {
-    let settings = Settings::read(file).map_err(|e| match e {
-        // Both name the file themselves.
-        DesignError::Unreadable { .. } => Failure::file(e),
-        _ => Failure::input(e),
-    })?;
+    // These errors name the file themselves.
+    let settings = Settings::read(file).map_err(design_failure)?;
     settings.resolve(file.parent()).map_err(|e| Failure::input(format!("{}: {e}", file.display())))
 }

@@ -11,6 +11,7 @@ mod sample;
 mod summary;
 mod terminal;
 
+use crate::design::DesignError;
 use clap::{ColorChoice, CommandFactory, Parser, Subcommand};
 use std::path::Path;
 use std::process::ExitCode;
@@ -78,6 +79,14 @@ fn write_result(out: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
         None => print(bytes),
         Some(file) => std::fs::write(file, bytes)
             .map_err(|e| Failure::file(format!("cannot write {}: {e}", file.display()))),
+    }
+}
+
+/// A design file that cannot be had, as opposed to one that asks for what cannot be.
+fn design_failure(e: DesignError) -> Failure {
+    match e {
+        DesignError::Unreadable { .. } => Failure::file(e),
+        _ => Failure::input(e),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Keeps one piece of a surface.
 
 use crate::ids::{FaceId, Id, IdVec, VertexId};
+use crate::surface::faces::renumbered;
 use crate::surface::polygons::PolygonMesh;
 use crate::surface::shape::{Shape, counted};
 use crate::surface::topology::{Topology, TopologyError};
@@ -120,16 +121,8 @@ fn used<'a>(
     points: &IdVec<VertexId, Point3>,
     corners: impl Iterator<Item = &'a VertexId>,
 ) -> (IdVec<VertexId, Point3>, IdVec<VertexId, VertexId>) {
-    let mut used = vec![false; points.len()];
-    for v in corners {
-        used[v.index()] = true;
-    }
-    let mut kept = IdVec::new();
-    let mut new: IdVec<VertexId, VertexId> = points.ids().collect();
-    for (v, &p) in points.enumerate().filter(|(v, _)| used[v.index()]) {
-        new[v] = kept.push(p);
-    }
-    (kept, new)
+    let [origin, new] = renumbered(points, corners);
+    (origin.iter().map(|&v| points[v]).collect(), new)
 }
 
 impl FromStr for Component {

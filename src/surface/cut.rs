@@ -118,13 +118,7 @@ impl CutPlane {
 /// A plane that passes by the surface, or leaves nothing of it.
 pub fn cut(mesh: &Mesh, plane: CutPlane) -> Result<Mesh, CutFault> {
     let mesh = part(mesh, |_| true);
-    let [lo, hi] = mesh.bounds().ok_or(CutFault::Empty)?;
-    let snap = SNAP * (hi - lo).norm();
-    let range = [lo.z, hi.z];
-    let at = plane.height(range);
-    if at < lo.z - snap || at > hi.z + snap {
-        return Err(CutFault::Outside { plane, at, range });
-    }
+    let Level { at, snap, range } = level(plane, mesh.bounds())?;
     let mut cutter = Cutter::new(mesh, at, snap);
     for face in cutter.mesh.triangles.ids() {
         cutter.add(face);
@@ -142,16 +136,31 @@ pub fn cut(mesh: &Mesh, plane: CutPlane) -> Result<Mesh, CutFault> {
 /// # Errors
 /// A plane that passes by the surface, or leaves no polygon whole.
 pub fn whole_above(mesh: &PolygonMesh, plane: CutPlane) -> Result<PolygonMesh, CutFault> {
-    let [lo, hi] = mesh.bounds().ok_or(CutFault::Empty)?;
+    let Level { at, snap, range } = level(plane, mesh.bounds())?;
+    let above = |face: &&Vec<VertexId>| face.iter().all(|&v| mesh.points[v].z >= at - snap);
+    let kept = part_of_polygons(mesh, mesh.faces.iter().filter(above));
+    if kept.faces.is_empty() { Err(CutFault::NothingAbove { plane, range }) } else { Ok(kept) }
+}
+
+/// A plane on a surface, mm.
+struct Level {
+    at: f64,
+    /// Vertices this near count as in it.
+    snap: f64,
+    /// Heights of the lowest and the highest point.
+    range: [f64; 2],
+}
+
+/// Where a plane lies on a surface of these bounds.
+fn level(plane: CutPlane, bounds: Option<[Point3; 2]>) -> Result<Level, CutFault> {
+    let [lo, hi] = bounds.ok_or(CutFault::Empty)?;
     let snap = SNAP * (hi - lo).norm();
     let range = [lo.z, hi.z];
     let at = plane.height(range);
     if at < lo.z - snap || at > hi.z + snap {
         return Err(CutFault::Outside { plane, at, range });
     }
-    let above = |face: &&Vec<VertexId>| face.iter().all(|&v| mesh.points[v].z >= at - snap);
-    let kept = part_of_polygons(mesh, mesh.faces.iter().filter(above));
-    if kept.faces.is_empty() { Err(CutFault::NothingAbove { plane, range }) } else { Ok(kept) }
+    Ok(Level { at, snap, range })
 }
 
 /// Where a vertex lies.

@@ -170,13 +170,14 @@ pub(super) fn settle<F: AsRef<[VertexId]> + AsMut<[VertexId]>>(
     Ok(())
 }
 
-/// Takes out vertices without faces; gives the old number of each new vertex.
-fn drop_unused<F: AsRef<[VertexId]> + AsMut<[VertexId]>>(
-    points: &mut IdVec<VertexId, Point3>,
-    faces: &mut [F],
-) -> IdVec<VertexId, VertexId> {
+/// The numbers that the vertices of some corners have, in their order, and from each of
+/// them the new one, counted without the vertices between that are not used.
+pub(super) fn renumbered<'a>(
+    points: &IdVec<VertexId, Point3>,
+    corners: impl Iterator<Item = &'a VertexId>,
+) -> [IdVec<VertexId, VertexId>; 2] {
     let mut used = vec![false; points.len()];
-    for v in faces.iter().flat_map(|f| f.as_ref()) {
+    for v in corners {
         used[v.index()] = true;
     }
     let origin: IdVec<VertexId, VertexId> = points.ids().filter(|v| used[v.index()]).collect();
@@ -184,6 +185,15 @@ fn drop_unused<F: AsRef<[VertexId]> + AsMut<[VertexId]>>(
     for (now, &old) in origin.enumerate() {
         new[old] = now;
     }
+    [origin, new]
+}
+
+/// Takes out vertices without faces; gives the old number of each new vertex.
+fn drop_unused<F: AsRef<[VertexId]> + AsMut<[VertexId]>>(
+    points: &mut IdVec<VertexId, Point3>,
+    faces: &mut [F],
+) -> IdVec<VertexId, VertexId> {
+    let [origin, new] = renumbered(points, faces.iter().flat_map(|f| f.as_ref()));
     *points = origin.iter().map(|&v| points[v]).collect();
     for v in faces.iter_mut().flat_map(|f| f.as_mut()) {
         *v = new[*v];

@@ -165,6 +165,13 @@ impl PlanarLocator {
     }
 }
 
+/// Whether two segments of the plane, a-b and c-d, cross in the inside of both. Touching
+/// is no crossing.
+pub fn segments_cross([a, b]: [Point2<f64>; 2], [c, d]: [Point2<f64>; 2]) -> bool {
+    let side = |p: Point2<f64>, q: Point2<f64>, r: Point2<f64>| (q - p).perp(&(r - p));
+    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+}
+
 /// The point with the given weights of three corners.
 pub fn blend<const D: usize>(corners: &[Point<f64, D>; 3], weights: [f64; 3]) -> Point<f64, D> {
     let [a, b, c] = corners;

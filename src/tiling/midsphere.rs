@@ -180,14 +180,13 @@ impl<'a> Newton<'a> {
             })
             .collect();
         let x: Vec<Vector3> = vertices.into_iter().chain(planes).collect();
-        let mut newton = Self { net, vertex_count, solver: SpdSolver::new(0, &[])?, x };
-        let size = 3 * newton.x.len();
+        let size = 3 * x.len();
         let mut entries: Vec<(usize, usize)> = (0..size).map(|i| (i, i)).collect();
-        for equation in newton.equations() {
+        for equation in equations(net, vertex_count, &x) {
             entries.extend(block_entries(6).map(|(i, j)| (equation.row(i), equation.row(j))));
         }
-        newton.solver = SpdSolver::new(size, &entries)?;
-        Ok(newton)
+        let solver = SpdSolver::new(size, &entries)?;
+        Ok(Self { net, x, vertex_count, solver })
     }
 
     fn vertices(&self) -> impl Iterator<Item = Vector3> + '_ {
@@ -198,29 +197,8 @@ impl<'a> Newton<'a> {
         self.equations().map(|e| e.value.abs()).fold(0.0, f64::max)
     }
 
-    /// All equations: a corner lies in its face; an edge touches the sphere.
     fn equations(&self) -> impl Iterator<Item = Equation> + '_ {
-        let corners = self.net.tiles.iter().enumerate().flat_map(move |(f, tile)| {
-            tile.corners.iter().map(move |&v| {
-                let w = self.vertex_count + f;
-                let (p, q) = (self.x[v], self.x[w]);
-                Equation { blocks: [v, w], gradient: stacked(q, p), value: p.dot(&q) - 1.0 }
-            })
-        });
-        let edges = self.net.edges.iter().map(|edge| {
-            let [a, b] = edge.ends.map(|v| self.x[v]);
-            let (cross, d) = (a.cross(&b), b - a);
-            // Squared distance of the line from the origin. Divided by the edge's length,
-            // so that edges cannot meet the equation by vanishing.
-            let squared = d.norm_squared();
-            let touch = cross.norm_squared() / squared;
-            // ∂|a × b|² / ∂a = 2 b × (a × b), and the same about b turned round.
-            let by_a = (b.cross(&cross) + d * touch) * (2.0 / squared);
-            let by_b = (cross.cross(&a) - d * touch) * (2.0 / squared);
-            let value = touch - 1.0;
-            Equation { blocks: edge.ends, gradient: stacked(by_a, by_b), value }
-        });
-        corners.chain(edges)
+        equations(self.net, self.vertex_count, &self.x)
     }
 
     /// One step, shortened until the error falls; gives the new error.
@@ -251,6 +229,35 @@ impl<'a> Newton<'a> {
             part /= 2.0;
         }
     }
+}
+
+/// All equations: a corner lies in its face; an edge touches the sphere.
+fn equations<'a>(
+    net: &'a Net,
+    vertex_count: usize,
+    x: &'a [Vector3],
+) -> impl Iterator<Item = Equation> + 'a {
+    let corners = net.tiles.iter().enumerate().flat_map(move |(f, tile)| {
+        tile.corners.iter().map(move |&v| {
+            let w = vertex_count + f;
+            let (p, q) = (x[v], x[w]);
+            Equation { blocks: [v, w], gradient: stacked(q, p), value: p.dot(&q) - 1.0 }
+        })
+    });
+    let edges = net.edges.iter().map(move |edge| {
+        let [a, b] = edge.ends.map(|v| x[v]);
+        let (cross, d) = (a.cross(&b), b - a);
+        // Squared distance of the line from the origin. Divided by the edge's length,
+        // so that edges cannot meet the equation by vanishing.
+        let squared = d.norm_squared();
+        let touch = cross.norm_squared() / squared;
+        // ∂|a × b|² / ∂a = 2 b × (a × b), and the same about b turned round.
+        let by_a = (b.cross(&cross) + d * touch) * (2.0 / squared);
+        let by_b = (cross.cross(&a) - d * touch) * (2.0 / squared);
+        let value = touch - 1.0;
+        Equation { blocks: edge.ends, gradient: stacked(by_a, by_b), value }
+    });
+    corners.chain(edges)
 }
 
 /// Steps are shortened down to this part before they count as failed.

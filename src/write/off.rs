@@ -8,7 +8,13 @@ use std::fmt::Write as _;
 /// The text of an OFF file. Numbers have the shortest digits that read back the same.
 pub fn write_off(mesh: &Mesh) -> String {
     // No remarks: some readers stumble over them.
-    let mut text = format!("OFF\n{} {} 0\n", mesh.points.len(), mesh.triangles.len());
+    format!("OFF\n{} {} 0\n", mesh.points.len(), mesh.triangles.len()) + &body(mesh)
+}
+
+/// Points and triangles as OFF and PLY texts have them: a line each, triangles with their
+/// number of corners in front.
+pub(super) fn body(mesh: &Mesh) -> String {
+    let mut text = String::new();
     for p in &mesh.points {
         let [x, y, z] = [p.x, p.y, p.z].map(exact);
         writeln!(text, "{x} {y} {z}").expect("writing to a string does not fail");

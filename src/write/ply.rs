@@ -1,9 +1,8 @@
 //! PLY (Stanford polygon format): vertices as doubles, triangles as lists, mm, z up.
 
-use super::figure::exact;
+use super::off::body;
 use crate::ids::Id;
 use crate::surface::Mesh;
-use std::fmt::Write as _;
 
 /// The bytes of a binary PLY file, little endian.
 pub fn write_ply(mesh: &Mesh) -> Vec<u8> {
@@ -25,16 +24,7 @@ pub fn write_ply(mesh: &Mesh) -> Vec<u8> {
 
 /// The text of a PLY file. Numbers have the shortest digits that read back the same.
 pub fn write_ply_text(mesh: &Mesh) -> String {
-    let mut text = header(mesh, "ascii");
-    for p in &mesh.points {
-        let [x, y, z] = [p.x, p.y, p.z].map(exact);
-        writeln!(text, "{x} {y} {z}").expect("writing to a string does not fail");
-    }
-    for t in &mesh.triangles {
-        let [a, b, c] = t.map(|v| v.index());
-        writeln!(text, "3 {a} {b} {c}").expect("writing to a string does not fail");
-    }
-    text
+    header(mesh, "ascii") + &body(mesh)
 }
 
 fn header(mesh: &Mesh, format: &str) -> String {

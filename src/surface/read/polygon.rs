@@ -6,6 +6,7 @@
 //! same thing: of its two diagonals the better is taken.
 
 use crate::ids::VertexId;
+use crate::surface::locate::segments_cross;
 use crate::surface::{Point3, Vector3};
 use nalgebra::{Point2, Vector2};
 
@@ -117,11 +118,8 @@ fn flatten(corners: &[Point3]) -> Option<Vec<Point2<f64>>> {
 /// Whether two sides cross at inner points of both. Touching is left to the clipping.
 fn crosses_itself(flat: &[Point2<f64>]) -> bool {
     let n = flat.len();
-    let side = |i: usize| (flat[i], flat[(i + 1) % n]);
-    let apart = |(a, b): (Point2<f64>, Point2<f64>), (c, d): (Point2<f64>, Point2<f64>)| {
-        (b - a).perp(&(c - a)) * (b - a).perp(&(d - a)) < 0.0
-    };
-    (0..n).any(|i| (i + 2..n).any(|j| apart(side(i), side(j)) && apart(side(j), side(i))))
+    let side = |i: usize| [flat[i], flat[(i + 1) % n]];
+    (0..n).any(|i| (i + 2..n).any(|j| segments_cross(side(i), side(j))))
 }
 
 fn around(ring: &[usize], i: usize) -> [usize; 3] {
