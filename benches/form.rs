@@ -61,13 +61,13 @@ fn main() {
 
 fn row(chart: &PlanarChart, diameter: f64) {
     let pattern = Pattern::named("4.4.4.4").expect("4.4.4.4 is in the library");
-    let turn = pattern.turn.to_radians();
+    let shape = pattern.usual();
     let start = Placement { origin: [0.0; 2].into(), rotation: 0.0, edge: 1.0 };
-    let (fit_time, found) = least(|| fit(chart, pattern, &start, turn, diameter));
+    let (fit_time, found) = least(|| fit(chart, pattern, &start, shape, diameter));
     // Thick rods leave too few units for a fit; the square law still places them.
     let edge = found.map_or_else(|_| 75.0 * (diameter / 3.0).sqrt(), |f: Fit| f.edge);
     let placement = Placement { edge, ..start };
-    let canvas = PlaneCanvas::new(chart, pattern, placement, turn).expect("under a million");
+    let canvas = PlaneCanvas::new(chart, pattern, placement, shape).expect("under a million");
     let (lift_time, (woven, lifted)) = least(|| {
         let tiles = crop(&canvas, &held(&canvas));
         let woven = weave(&canvas, &tiles).expect("cropped tiles lie on the chart");

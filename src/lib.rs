@@ -14,13 +14,13 @@
 //! let dome = sample("igloo").ok_or("no such sample")?;
 //! let chart = PlanarChart::new(dome.clone(), &require_disk(&dome)?, Method::Abf)?;
 //! let pattern = Pattern::named("4.4.4.4").ok_or("no such pattern")?;
-//! let (rod, turn) = (3.0, pattern.turn.to_radians());
+//! let (rod, shape) = (3.0, pattern.usual());
 //! let start = Placement { origin: [0.0; 2].into(), rotation: 0.0, edge: 20.0 * rod };
-//! let edge = fit(&chart, pattern, &start, turn, rod)?.edge;
+//! let edge = fit(&chart, pattern, &start, shape, rod)?.edge;
 //! let settings = FormSettings {
 //!     diameter: rod, overhang: 6.0, round: 0.5, layering: Layering::Follow, surface_low: 0.0,
 //! };
-//! let canvas = PlaneCanvas::new(&chart, pattern, Placement { edge, ..start }, turn)?;
+//! let canvas = PlaneCanvas::new(&chart, pattern, Placement { edge, ..start }, shape)?;
 //! let frame = form(&canvas, &settings)?.frame;
 //! assert!(frame.contacts.iter().all(|c| (c.gap - rod).abs() < 1e-9 * rod));
 //! # Ok(())

@@ -9,7 +9,7 @@ use crate::frame::fit_turn::{fit_turn, safe_turns};
 use crate::frame::form::{FormError, FormSettings, Formed, form, median_rise};
 use crate::frame::guide::Guide;
 use crate::frame::measure::{Measures, measure};
-use crate::pattern::Pattern;
+use crate::pattern::{Pattern, Shape};
 use crate::shop::cutlist::{CutError, CutPlan, Stock, plan};
 use crate::shop::lengths::cut_lengths;
 use crate::surface::prepare::{PrepareError, Prepared, prepare, prepare_polygons};
@@ -72,7 +72,7 @@ pub fn build(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, Buil
 /// A pattern of the plane, laid on the flattened surface.
 fn on_chart(
     design: &Design,
-    pattern: &'static Pattern,
+    pattern: &Pattern,
     begin: &mut dyn FnMut(Step),
 ) -> Result<Model, BuildError> {
     begin(Step::Read);
@@ -92,22 +92,23 @@ fn on_chart(
 /// The same, once the surface is flat.
 fn in_plane(
     design: &Design,
-    pattern: &'static Pattern,
+    pattern: &Pattern,
     chart: &PlanarChart,
     notes: Vec<String>,
     begin: &mut dyn FnMut(Step),
 ) -> Result<Model, BuildError> {
     begin(Step::Fit);
-    let turn = design.turn.unwrap_or(pattern.turn.to_radians());
+    let usual = pattern.usual();
+    let shape = Shape { turn: design.turn.unwrap_or(usual.turn), ..usual };
     let place = |edge| Placement { origin: design.origin.into(), rotation: design.rotate, edge };
     let (canvas, fit) = match design.unit {
         None => {
-            let fit = fit(chart, pattern, &place(design.rod), turn, design.rod)?;
-            (PlaneCanvas::new(chart, pattern, place(fit.edge), turn)?, fit)
+            let fit = fit(chart, pattern, &place(design.rod), shape, design.rod)?;
+            (PlaneCanvas::new(chart, pattern, place(fit.edge), shape)?, fit)
         }
         Some(edge) => {
-            let canvas = PlaneCanvas::new(chart, pattern, place(edge), turn)?;
-            let fit = as_given(&canvas, turn);
+            let canvas = PlaneCanvas::new(chart, pattern, place(edge), shape)?;
+            let fit = as_given(&canvas, shape.turn);
             (canvas, fit)
         }
     };

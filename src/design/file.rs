@@ -58,7 +58,7 @@ impl Design {
         let rotate = self.given.rotate.map_or_else(|| "0deg".into(), |a| a.to_string());
         match &self.tiles {
             Tiles::Pattern(pattern) => {
-                file.set("pattern", pattern.name);
+                file.set("pattern", pattern.name.clone());
                 file.set("chart", choice(self.chart));
                 match self.unit {
                     Some(unit) => file.set("unit", mm(unit)),
@@ -69,7 +69,7 @@ impl Design {
                         ));
                     }
                 }
-                let usual = format!("{}deg", pattern.turn);
+                let usual = format!("{}deg", pattern.turn.usual);
                 file.set("turn", self.given.turn.map_or(usual, |t| t.to_string()));
                 file.set("origin", self.origin.map(mm).to_vec());
                 file.set("rotate", rotate);

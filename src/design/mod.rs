@@ -20,6 +20,7 @@ use crate::surface::up::Up;
 use crate::tiling::conway::Notation;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// A part of the output folder.
@@ -58,7 +59,7 @@ const ALL_PARTS: [Part; 7] = [
 #[derive(Clone, Debug)]
 pub enum Tiles {
     /// A pattern of the plane, on the chart of a surface file.
-    Pattern(&'static Pattern),
+    Pattern(Arc<Pattern>),
     /// The polygons of a surface file.
     Mesh,
     /// A polyhedron on a sphere.
@@ -80,16 +81,16 @@ impl Tiles {
     /// The name for titles and reports.
     pub fn name(&self) -> String {
         match self {
-            Self::Pattern(pattern) => pattern.name.into(),
+            Self::Pattern(pattern) => pattern.name.clone(),
             Self::Mesh => "mesh".into(),
             Self::Sphere(sphere) => sphere.notation.to_string(),
         }
     }
 
     /// What it looks like, in a few words.
-    pub fn summary(&self) -> &'static str {
+    pub fn summary(&self) -> &str {
         match self {
-            Self::Pattern(pattern) => pattern.summary,
+            Self::Pattern(pattern) => &pattern.summary,
             Self::Mesh => "the polygons of the surface itself",
             Self::Sphere(_) => "a polyhedron on a sphere, along great circles",
         }

@@ -1,7 +1,7 @@
 //! Fills in the defaults and checks every setting.
 
 use super::{ALL_PARTS, Design, DesignError, SPHERE, Settings, Sphere, Tiles};
-use crate::pattern::{LIBRARY, Pattern};
+use crate::pattern::{Pattern, library};
 use crate::tiling::conway::Notation;
 use crate::units::{Angle, Length};
 use std::path::Path;
@@ -66,7 +66,7 @@ impl Settings {
         }
         Ok(match self.pattern.as_deref() {
             Some("mesh") => Tiles::Mesh,
-            name => Tiles::Pattern(pattern(name)?),
+            name => Tiles::Pattern(pattern(name)?.clone().into()),
         })
     }
 
@@ -128,12 +128,12 @@ fn not_negative(key: &'static str, length: Option<Length>) -> Result<Option<f64>
 }
 
 fn pattern(name: Option<&str>) -> Result<&'static Pattern, DesignError> {
-    let name = name.unwrap_or(LIBRARY[0].name);
+    let name = name.unwrap_or(&library()[0].name);
     Pattern::named(name).ok_or_else(|| {
         let near = Pattern::near(name).join(", ");
         let problem = format!(
             "no such pattern; the nearest are {near}. README.md lists all {}, and mesh",
-            LIBRARY.len()
+            library().len()
         );
         setting("pattern", name, problem)
     })
@@ -143,8 +143,8 @@ fn pattern(name: Option<&str>) -> Result<&'static Pattern, DesignError> {
 /// bounds are checked there.
 fn turn(tiles: &Tiles, angle: Option<Angle>) -> Result<Option<f64>, DesignError> {
     let Tiles::Pattern(pattern) = tiles else { return Ok(angle.map(Angle::radians)) };
-    let Some(angle) = angle else { return Ok(Some(pattern.turn.to_radians())) };
-    let [least, most] = pattern.turns;
+    let Some(angle) = angle else { return Ok(Some(pattern.usual().turn)) };
+    let [least, most] = pattern.turn.safe;
     if (least..=most).contains(&angle.degrees().abs()) {
         return Ok(Some(angle.radians()));
     }

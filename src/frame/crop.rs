@@ -75,13 +75,14 @@ mod tests {
     use super::*;
     use crate::frame::canvas::PlaneCanvas;
     use crate::frame::canvas::fixture::Rooms;
-    use crate::pattern::Pattern;
+    use crate::pattern::{Pattern, Shape};
     use crate::tiling::Placement;
 
     fn rooms() -> PlaneCanvas<'static, Rooms> {
         let placement = Placement { origin: [0.5; 2].into(), rotation: 0.0, edge: 1.0 };
         let squares = Pattern::named("4.4.4.4").expect("in the library");
-        PlaneCanvas::new(&Rooms, squares, placement, 0.3).expect("few tiles")
+        let shape = Shape { turn: 0.3, slide: 0.0 };
+        PlaneCanvas::new(&Rooms, squares, placement, shape).expect("few tiles")
     }
 
     #[test]

@@ -7,7 +7,7 @@
 use super::canvas::{MOST_UNITS, PlaneCanvas, most_units};
 use super::form::median_rise;
 use crate::chart::Chart;
-use crate::pattern::Pattern;
+use crate::pattern::{Pattern, Shape};
 use crate::tiling::Placement;
 use thiserror::Error;
 
@@ -86,7 +86,7 @@ const STRIDE: f64 = 1.15;
 /// the rise is smooth in the edge.
 const BISECTIONS: usize = 7;
 
-/// Finds the tile edge for rods of `diameter` mm, turned by `turn` radians.
+/// Finds the tile edge for rods of `diameter` mm in units of the given shape.
 /// `placement` gives origin and rotation; its edge is not used.
 ///
 /// # Errors
@@ -95,14 +95,14 @@ pub fn fit(
     chart: &impl Chart,
     pattern: &Pattern,
     placement: &Placement,
-    turn: f64,
+    shape: Shape,
     diameter: f64,
 ) -> Result<Fit, FitError> {
     let try_edge = |edge: f64| {
         let placement = Placement { edge, ..*placement };
         let (units, rise) =
-            median_rise(&PlaneCanvas::new(chart, pattern, placement, turn).ok()?).ok()?;
-        let fit = Fit { edge, turn, rise, units, by: FitBy::Edge };
+            median_rise(&PlaneCanvas::new(chart, pattern, placement, shape).ok()?).ok()?;
+        let fit = Fit { edge, turn: shape.turn, rise, units, by: FitBy::Edge };
         (fit.units >= LIKENESS).then_some(fit)
     };
     let room = LEAST_EDGE * diameter;

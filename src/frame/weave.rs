@@ -167,20 +167,21 @@ mod tests {
     use super::*;
     use crate::frame::canvas::PlaneCanvas;
     use crate::frame::canvas::fixture::Sheet;
-    use crate::pattern::LIBRARY;
+    use crate::pattern::{Pattern, Shape, library};
     use crate::tiling::Placement;
 
-    fn woven(pattern: &crate::pattern::Pattern, turn: f64) -> Weave {
+    fn woven(pattern: &Pattern, turn: f64) -> Weave {
         let placement = Placement { origin: [0.0; 2].into(), rotation: 0.0, edge: 1.0 };
-        let canvas = PlaneCanvas::new(&Sheet, pattern, placement, turn).expect("few tiles");
+        let canvas = PlaneCanvas::new(&Sheet, pattern, placement, Shape { turn, slide: 0.0 })
+            .expect("few tiles");
         let tiles: Vec<TileId> = canvas.net().tiles.ids().collect();
         weave(&canvas, &tiles).expect("a flat sheet")
     }
 
     #[test]
     fn inner_rods_have_four_contacts_and_border_rods_two() {
-        for pattern in LIBRARY {
-            let weave = woven(pattern, pattern.turn.to_radians());
+        for pattern in library() {
+            let weave = woven(pattern, pattern.usual().turn);
             let mut ending = vec![0; weave.rods.len()];
             let mut passing = vec![0; weave.rods.len()];
             for c in &weave.contacts {
@@ -202,8 +203,8 @@ mod tests {
     /// r sin φ with r that of the tile.
     #[test]
     fn units_are_regular_and_run_as_the_turn_says() {
-        for pattern in LIBRARY {
-            for turn in [pattern.turn.to_radians(), -pattern.turn.to_radians()] {
+        for pattern in library() {
+            for turn in [pattern.usual().turn, -pattern.usual().turn] {
                 let weave = woven(pattern, turn);
                 for unit in &weave.units {
                     let half_step = std::f64::consts::PI / unit.rods.len() as f64;

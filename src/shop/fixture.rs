@@ -92,10 +92,10 @@ pub(crate) fn on_sample(surface: &str, pattern: &str) -> Frame {
     let topology = require_disk(&mesh).unwrap();
     let chart = PlanarChart::new(mesh, &topology, Method::Abf).unwrap();
     let pattern = crate::pattern::Pattern::named(pattern).unwrap();
-    let (turn, diameter) = (pattern.turn.to_radians(), 3.0);
+    let (shape, diameter) = (pattern.usual(), 3.0);
     let placement =
         crate::tiling::Placement { origin: Default::default(), rotation: 0.0, edge: 1.0 };
-    let edge = fit(&chart, pattern, &placement, turn, diameter).unwrap().edge;
+    let edge = fit(&chart, pattern, &placement, shape, diameter).unwrap().edge;
     let settings = FormSettings {
         diameter,
         overhang: OVERHANG,
@@ -104,6 +104,6 @@ pub(crate) fn on_sample(surface: &str, pattern: &str) -> Frame {
         surface_low,
     };
     let placement = crate::tiling::Placement { edge, ..placement };
-    let canvas = PlaneCanvas::new(&chart, pattern, placement, turn).unwrap();
+    let canvas = PlaneCanvas::new(&chart, pattern, placement, shape).unwrap();
     form(&canvas, &settings).unwrap().frame
 }

@@ -2,14 +2,14 @@
 
 use crate::check::check_structure;
 use crate::run::{rodwright, sample, snapshot, structure};
-use rodwright::pattern::LIBRARY;
+use rodwright::pattern::library;
 use tempfile::tempdir;
 
 #[test]
 fn every_pattern_makes_a_sound_frame_of_the_igloo_and_the_station() {
     let dir = tempdir().unwrap();
     for surface in ["igloo.obj", "train-station.obj"] {
-        for pattern in LIBRARY.iter().map(|p| p.name) {
+        for pattern in library().iter().map(|p| p.name.as_str()) {
             let out = dir.path().join(pattern);
             rodwright(dir.path())
                 .args(["build", &sample(surface), "--pattern", pattern])
@@ -50,11 +50,11 @@ const TWELVE_SIDED: &[(&str, &[&str])] = &[
 #[test]
 fn every_pattern_can_be_built_on_the_igloo_with_nothing_left_out() {
     let dir = tempdir().unwrap();
-    for pattern in LIBRARY {
+    for pattern in library() {
         let large = TWELVE_SIDED.iter().find(|(name, _)| *name == pattern.name);
-        assert_eq!(large.is_some(), pattern.tiling().polygons().contains(&12));
+        assert_eq!(large.is_some(), pattern.tiling.polygons().contains(&12));
         rodwright(dir.path())
-            .args(["build", &sample("igloo.obj"), "--pattern", pattern.name])
+            .args(["build", &sample("igloo.obj"), "--pattern", &pattern.name])
             .args(large.map_or(&[][..], |(_, settings)| settings))
             .args(["--only", "structure", "-q", "--force", "-o", "out"])
             .assert()

@@ -3,7 +3,7 @@
 use super::{Canvas, Sizing};
 use crate::chart::{Chart, SurfacePoint};
 use crate::ids::{TileEdgeId, TileId};
-use crate::pattern::{FlatUnit, Line, Pattern};
+use crate::pattern::{FlatUnit, Line, Pattern, Shape};
 use crate::tiling::{Net, Placement, Tiling};
 use nalgebra::{Point2, Rotation2, Vector2};
 use std::f64::consts::FRAC_PI_2;
@@ -19,14 +19,14 @@ const HOLE_MARGIN: f64 = 0.08;
 /// Most tiles that are laid out: some gigabytes. More can only be a slip of a unit.
 pub const MOST_UNITS: usize = 1_000_000;
 
-/// A tiling laid on a chart, with the turn of its rods. Every tile's flat picture is the
+/// A tiling laid on a chart, with the shape of its units. Every tile's flat picture is the
 /// plane of the tiling, in tile edges.
 #[derive(Clone, Debug)]
 pub struct PlaneCanvas<'a, C> {
     chart: &'a C,
     tiling: Tiling,
     placement: Placement,
-    turn: f64,
+    shape: Shape,
 }
 
 /// More tiles than can be laid out: about so many.
@@ -43,7 +43,7 @@ pub struct TooManyUnits {
 }
 
 impl<'a, C: Chart> PlaneCanvas<'a, C> {
-    /// Covers the whole chart with a pattern whose rods are turned by `turn` radians.
+    /// Covers the whole chart with a pattern.
     ///
     /// # Errors
     /// More tiles than [`MOST_UNITS`].
@@ -51,7 +51,7 @@ impl<'a, C: Chart> PlaneCanvas<'a, C> {
         chart: &'a C,
         pattern: &Pattern,
         placement: Placement,
-        turn: f64,
+        shape: Shape,
     ) -> Result<Self, TooManyUnits> {
         let about = most_units(chart, placement.edge);
         if about > MOST_UNITS as f64 {
@@ -62,14 +62,14 @@ impl<'a, C: Chart> PlaneCanvas<'a, C> {
         let corners = corners.map(|(x, y)| placement.invert(Point2::new(x, y)));
         let low = corners[1..].iter().fold(corners[0], |m, p| m.inf(p));
         let high = corners[1..].iter().fold(corners[0], |m, p| m.sup(p));
-        let tiling = pattern.tiling().patch(low, high);
-        Ok(Self { chart, tiling, placement, turn })
+        let tiling = pattern.tiling.patch(low, high);
+        Ok(Self { chart, tiling, placement, shape })
     }
 
     /// Unit direction of the rod across an edge, from its left tile to its right one.
     fn direction(&self, edge: TileEdgeId) -> Vector2<f64> {
         let [from, to] = self.tiling.net.edges[edge].ends.map(|v| self.tiling.vertices[v]);
-        Rotation2::new(self.turn - FRAC_PI_2) * (to - from).normalize()
+        Rotation2::new(self.shape.turn - FRAC_PI_2) * (to - from).normalize()
     }
 
     /// Whether a rod of a tile, from its edge to its farther contact, meets a hole.

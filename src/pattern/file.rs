@@ -1,0 +1,265 @@
+//! Reading a pattern file: `units`, `rules`, and the figures that go with them.
+
+use super::{Join, Parameter, Pattern, Rule, Slot, Stick, UnitKind};
+use crate::tiling::UniformTiling;
+use nalgebra::{Point2, Rotation2};
+use serde::Deserialize;
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// What is wrong with a pattern file.
+#[derive(Error, Debug)]
+pub enum PatternError {
+    /// The file cannot be read.
+    #[error("cannot read {file}: {source}. Check the name of the file")]
+    Unreadable { file: PathBuf, source: std::io::Error },
+    /// It is not TOML, or has an unknown key.
+    #[error("{0}")]
+    Toml(#[from] Box<toml::de::Error>),
+    /// A unit that cannot be.
+    #[error("unit \"{unit}\": {problem}")]
+    Unit { unit: String, problem: String },
+    /// A rule that cannot be.
+    #[error("rule {rule}, {slots}: {problem}")]
+    Rule { rule: usize, slots: String, problem: String },
+    /// Units, rules or figures that do not go together.
+    #[error("{0}")]
+    Whole(String),
+}
+
+/// The file as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PatternFile {
+    name: Option<String>,
+    summary: Option<String>,
+    source: Option<String>,
+    tiling: Option<String>,
+    turn: Option<ParameterEntry>,
+    slide: Option<ParameterEntry>,
+    units: Vec<UnitEntry>,
+    rules: Vec<RuleEntry>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ParameterEntry {
+    usual: f64,
+    safe: [f64; 2],
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UnitEntry {
+    name: String,
+    sides: usize,
+    #[serde(default)]
+    mirrored: bool,
+    radius: Option<f64>,
+    #[serde(default)]
+    outer: Vec<[[f64; 2]; 2]>,
+    #[serde(default)]
+    inner: Vec<[[f64; 2]; 2]>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RuleEntry {
+    units: [String; 2],
+    join: JoinEntry,
+    reach: Option<usize>,
+}
+
+#[derive(Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum JoinEntry {
+    Shared,
+    End,
+    Rest,
+}
+
+/// Units have 3 to 12 rods.
+pub const SIDES: std::ops::RangeInclusive<usize> = 3..=12;
+
+/// Coordinates of rods that should be turned copies of each other agree to this, tile
+/// edges: what a person writes in six digits.
+const SAME: f64 = 1e-5;
+
+/// The turn of patterns that name none, degrees.
+const USUAL_TURN: f64 = 20.0;
+
+impl Pattern {
+    /// Reads a pattern file.
+    ///
+    /// # Errors
+    /// [`PatternError`] with what is wrong in it, and where.
+    pub fn read(file: &Path) -> Result<Self, PatternError> {
+        let unreadable = |source| PatternError::Unreadable { file: file.to_path_buf(), source };
+        let text = std::fs::read_to_string(file).map_err(unreadable)?;
+        let stem = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+        Self::parse(&text, stem.trim_end_matches(".pattern"))
+    }
+
+    /// The pattern of a file's text; `name` is for those that name none themselves.
+    ///
+    /// # Errors
+    /// [`PatternError`] with what is wrong in it, and where.
+    pub fn parse(text: &str, name: &str) -> Result<Self, PatternError> {
+        let file: PatternFile = toml::from_str(text).map_err(Box::new)?;
+        let kinds = file.units.iter().map(kind).collect::<Result<Vec<_>, _>>()?;
+        distinct(&kinds)?;
+        let rule = |(i, entry)| rule(i, entry, &kinds);
+        let rules = file.rules.iter().enumerate().map(rule).collect::<Result<Vec<_>, _>>()?;
+        let tiling = tiling(file.tiling.as_deref())?;
+        let figure = |entry: Option<ParameterEntry>, usual: Parameter, key| match entry {
+            Some(ParameterEntry { usual, safe }) => checked(key, Parameter { usual, safe }),
+            None => Ok(usual),
+        };
+        let still = Parameter { usual: 0.0, safe: [0.0; 2] };
+        Ok(Self {
+            name: file.name.unwrap_or_else(|| name.to_owned()),
+            summary: file.summary.unwrap_or_default(),
+            source: file.source.unwrap_or_default(),
+            turn: figure(file.turn, usual_turn(tiling), "turn")?,
+            slide: figure(file.slide, still, "slide")?,
+            tiling,
+            kinds,
+            rules,
+        })
+    }
+}
+
+/// Turns that are safe on a tiling, as far as its vertices tell: the more tiles there are
+/// round one, the sooner rods meet there.
+fn usual_turn(tiling: &UniformTiling) -> Parameter {
+    let triangles = tiling.polygons().contains(&3);
+    let most = match tiling.configurations().map(|c| c.len()).max() {
+        Some(0..=3) => 44.0,
+        Some(4) if !triangles => 36.0,
+        _ => 24.0,
+    };
+    Parameter { usual: USUAL_TURN, safe: [8.0, most] }
+}
+
+fn checked(key: &str, figure: Parameter) -> Result<Parameter, PatternError> {
+    let Parameter { usual, safe: [least, most] } = figure;
+    if least <= usual && usual <= most {
+        return Ok(figure);
+    }
+    Err(PatternError::Whole(format!(
+        "{key}: the usual value {usual} does not lie between those that are safe, {least} and \
+         {most}"
+    )))
+}
+
+fn kind(entry: &UnitEntry) -> Result<UnitKind, PatternError> {
+    let fault = |problem: String| PatternError::Unit { unit: entry.name.clone(), problem };
+    if !SIDES.contains(&entry.sides) {
+        let problem = format!("{} sides; units have 3 to 12", entry.sides);
+        return Err(fault(problem));
+    }
+    if entry.name.is_empty() || entry.name.contains('.') {
+        return Err(fault("its name must have letters, and no dot".into()));
+    }
+    if let Some(radius) = entry.radius.filter(|r| !(*r > 0.0 && *r < 1.0)) {
+        let problem =
+            format!("radius {radius}; it is a part of the tile's inradius, between 0 and 1");
+        return Err(fault(problem));
+    }
+    let sticks = |list: &[[[f64; 2]; 2]]| -> Vec<Stick> {
+        list.iter().map(|ends| ends.map(Point2::from)).collect()
+    };
+    let finite = entry.outer.iter().chain(&entry.inner).flatten().flatten().all(|x| x.is_finite());
+    if !finite {
+        return Err(fault("a coordinate is not a number".into()));
+    }
+    Ok(UnitKind {
+        name: entry.name.clone(),
+        sides: entry.sides,
+        mirrored: entry.mirrored,
+        radius: entry.radius,
+        outer: round(sticks(&entry.outer), entry.sides).map_err(fault)?,
+        inner: sticks(&entry.inner),
+    })
+}
+
+/// The outer rods of a unit, one a slot: one that is given is turned round, all that are
+/// given must be turned copies of each other.
+fn round(given: Vec<Stick>, sides: usize) -> Result<Vec<Stick>, String> {
+    let turned = |stick: &Stick, steps: usize| {
+        stick.map(|p| Rotation2::new(TAU * steps as f64 / sides as f64) * p)
+    };
+    match given.len() {
+        0 => Ok(given),
+        1 => Ok((0..sides).map(|i| turned(&given[0], i)).collect()),
+        n if n == sides => {
+            let apart = |i: usize| {
+                let wanted = turned(&given[0], i);
+                (0..2).map(|e| (wanted[e] - given[i][e]).norm()).fold(0.0, f64::max)
+            };
+            match (1..n).find(|&i| apart(i) > SAME) {
+                None => Ok(given),
+                Some(i) => Err(format!(
+                    "outer rod {} is not the first one turned by {i}/{n} of a full turn: it is \
+                     {:.6} tile edges away. Outer rods must be rotationally symmetric; give the \
+                     first alone to have the others made",
+                    i + 1,
+                    apart(i)
+                )),
+            }
+        }
+        n => Err(format!("{n} outer rods; give one for each of its {sides} sides, or one alone")),
+    }
+}
+
+fn distinct(kinds: &[UnitKind]) -> Result<(), PatternError> {
+    for (i, kind) in kinds.iter().enumerate() {
+        if kinds[..i].iter().any(|other| other.name == kind.name) {
+            let problem = "there are two of this name".into();
+            return Err(PatternError::Unit { unit: kind.name.clone(), problem });
+        }
+    }
+    Ok(())
+}
+
+fn rule(index: usize, entry: &RuleEntry, kinds: &[UnitKind]) -> Result<Rule, PatternError> {
+    let fault =
+        |problem| PatternError::Rule { rule: index + 1, slots: entry.units.join(" - "), problem };
+    let [a, b] = [0, 1].map(|i| slot(&entry.units[i], kinds).map_err(fault));
+    let slots = [a?, b?];
+    let join = match (entry.join, entry.reach) {
+        (JoinEntry::Rest, Some(0)) => {
+            return Err(fault("reach is the number of rods met, 1 or more".into()));
+        }
+        (JoinEntry::Rest, reach) => Join::Rest { reach: reach.unwrap_or(1) },
+        (_, Some(_)) => return Err(fault("only rods that rest (join = \"rest\") reach".into())),
+        (JoinEntry::Shared, None) => Join::Shared,
+        (JoinEntry::End, None) => Join::End,
+    };
+    Ok(Rule { slots, join })
+}
+
+/// A slot as a rule names it: `square`, or `square.1` for its first side.
+fn slot(text: &str, kinds: &[UnitKind]) -> Result<Slot, String> {
+    let (name, side) = match text.split_once('.') {
+        Some((name, side)) => (name, Some(side)),
+        None => (text, None),
+    };
+    let kind = kinds.iter().position(|k| k.name == name).ok_or_else(|| {
+        let known: Vec<&str> = kinds.iter().map(|k| k.name.as_str()).collect();
+        format!("there is no unit \"{name}\"; there are {}", known.join(", "))
+    })?;
+    let sides = kinds[kind].sides;
+    let numbered = |side: &str| {
+        let number = side.parse::<usize>().ok().filter(|n| (1..=sides).contains(n));
+        number.ok_or_else(|| format!("\"{text}\": the sides of \"{name}\" are 1 to {sides}"))
+    };
+    Ok(Slot { kind, side: side.map(numbered).transpose()?.map(|n| n - 1) })
+}
+
+fn tiling(name: Option<&str>) -> Result<&'static UniformTiling, PatternError> {
+    let name = name.ok_or_else(|| PatternError::Whole("no tiling is named".into()))?;
+    UniformTiling::named(name)
+        .ok_or_else(|| PatternError::Whole(format!("there is no tiling {name}")))
+}
