@@ -77,7 +77,13 @@ fn row(chart: &PlanarChart, diameter: f64) {
     let joints = woven
         .contacts
         .iter()
-        .map(|c| Joint { over: c.ending, under: c.passing, outward: c.on.normal, gap: diameter })
+        .map(|c| Joint {
+            over: c.ending,
+            under: c.passing,
+            outward: c.on.normal,
+            diameter,
+            kind: c.kind,
+        })
         .collect();
     let (close_time, closing) = least(|| close(&mut lifted.axes.clone(), &joints));
     let settings = FormSettings {

@@ -4,7 +4,7 @@ use super::axis::Axis;
 use super::close::Joint;
 use super::cut::{crossings, seats};
 use super::fault::Fault;
-use super::weave::Weave;
+use super::weave::{RodEnd, Weave};
 use super::{Contact, Frame, Rod, Support, Unit};
 use crate::ids::{ContactId, IdVec, RodId};
 
@@ -30,13 +30,14 @@ pub fn assemble(
     on: Ground,
 ) -> Result<Frame, Fault> {
     let crossings = crossings(weave, axes, joints)?;
-    let seats = seats(weave, joints, &crossings);
+    let seats = seats(axes.len(), joints, &crossings);
     let contacts = joints
         .enumerate()
         .map(|(id, joint)| {
             let x = &crossings[id];
             let [u, v] = [joint.over, joint.under].map(|r| axes[r].direction());
             Contact {
+                kind: joint.kind,
                 over: joint.over,
                 under: joint.under,
                 at_over: x.at_first,
@@ -52,7 +53,8 @@ pub fn assemble(
         .enumerate()
         .map(|(r, axis)| Rod {
             axis: *axis,
-            units: weave.rods[r].units.into_iter().flatten().collect(),
+            units: weave.rods[r].units.clone(),
+            border: weave.rods[r].ends.contains(&RodEnd::Free),
             contacts: seats[r].iter().map(|s| s.contact).collect(),
         })
         .collect();
@@ -62,6 +64,7 @@ pub fn assemble(
         .map(|woven| Unit {
             center: woven.center,
             chirality: woven.chirality,
+            sides: woven.sides,
             rods: woven.rods.clone(),
             contacts: woven.contacts.clone(),
         })

@@ -1,5 +1,6 @@
 //! Straight axes in space, and how two of them cross.
 
+use super::End;
 use crate::surface::{Point3, Vector3};
 
 /// The axis of a rod: a straight line between two ends, mm.
@@ -42,6 +43,22 @@ impl Axis {
     /// The point at a distance from end A, mm; beyond the ends too.
     pub fn at(&self, distance: f64) -> Point3 {
         self.a + self.direction() * distance
+    }
+
+    /// The position of an end.
+    pub fn end(&self, end: End) -> Point3 {
+        match end {
+            End::A => self.a,
+            End::B => self.b,
+        }
+    }
+
+    /// How far an end is from end A, mm.
+    pub fn place_of(&self, end: End) -> f64 {
+        match end {
+            End::A => 0.0,
+            End::B => self.length(),
+        }
     }
 
     /// The part of the line between two distances from end A, mm.

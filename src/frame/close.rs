@@ -7,10 +7,14 @@
 //! least move of all ends that meets the linearised gaps, dx = Jᵀ (J Jᵀ)⁻¹ r,
 //! with one sparse Cholesky factorisation. It converges quadratically.
 //!
-//! Sliding a rod along itself changes no gap, so no step does it.
+//! Where two ends meet, the three coordinates of their distance are such gaps.
+//!
+//! Sliding a rod along itself changes no gap of a crossing, so no step does it but for
+//! ends that meet.
 
 use super::axis::Axis;
-use crate::ids::{ContactId, Id, IdVec, RodId};
+use super::{ContactKind, End};
+use crate::ids::{ContactId, IdVec, RodId};
 use crate::linalg::{LinalgError, SpdSolver, block_entries};
 use crate::surface::Vector3;
 use serde::Serialize;
@@ -24,8 +28,10 @@ pub struct Joint {
     pub under: RodId,
     /// The outer side of the surface.
     pub outward: Vector3,
-    /// Wanted distance of the axes, mm.
-    pub gap: f64,
+    /// Where one crosses over the other the wanted distance of the axes, mm.
+    pub diameter: f64,
+    /// How they touch.
+    pub kind: ContactKind,
 }
 
 /// What closing took.
@@ -60,7 +66,7 @@ const GOOD: f64 = 1e-10;
 /// Steps before giving up; good starts take three to five.
 const MAX_STEPS: usize = 40;
 
-/// Longest move of an end in one step, in gaps. Longer moves leave the range in
+/// Longest move of an end in one step, in diameters. Longer moves leave the range in
 /// which the linearised gaps say anything; the step is shortened.
 const LONGEST_MOVE: f64 = 8.0;
 
@@ -74,107 +80,125 @@ pub fn close(
     axes: &mut IdVec<RodId, Axis>,
     joints: &IdVec<ContactId, Joint>,
 ) -> Result<Closing, CloseError> {
-    let incidence = incidence(axes.len(), joints);
+    let mut rows = rows(axes, joints)?;
+    let incidence = incidence(axes.len(), &rows);
     let mut entries = Vec::new();
     for around in &incidence {
-        entries.extend(
-            block_entries(around.len())
-                .map(|(i, j)| (around[i].contact.index(), around[j].contact.index())),
-        );
+        entries.extend(block_entries(around.len()).map(|(i, j)| (around[i].row, around[j].row)));
     }
-    let mut solver = SpdSolver::new(joints.len(), &entries).map_err(CloseError::Linear)?;
+    let mut solver = SpdSolver::new(rows.len(), &entries).map_err(CloseError::Linear)?;
     let mut values = Vec::with_capacity(entries.len());
     let mut last = f64::INFINITY;
     for step in 0..=MAX_STEPS {
-        let rows = rows(axes, joints)?;
-        let error = errors(&rows, joints).map(|e| e.1).fold(0.0, worse);
+        let error = rows.iter().map(Row::error).fold(0.0, worse);
         let polished = error <= GOOD && last <= GOOD;
         if error <= EXACT || polished {
             return Ok(Closing { steps: step, error });
         }
         if step == MAX_STEPS || error.is_nan() {
-            let open = errors(&rows, joints).filter(|e| e.1.is_nan() || e.1 > GOOD).map(|e| e.0);
-            return Err(CloseError::Diverged { open: open.collect() });
+            return Err(CloseError::Diverged { open: open(&rows) });
         }
         last = error;
         values.clear();
         for around in &incidence {
             values.extend(block_entries(around.len()).map(|(i, j)| {
-                let (p, q) = (
-                    rows[around[i].contact].end(around[i].over),
-                    rows[around[j].contact].end(around[j].over),
-                );
+                let [p, q] = [around[i], around[j]].map(|i| rows[i.row].at_rod(i.over));
                 p.normal.dot(&q.normal) * (p.at_a * q.at_a + p.at_b * q.at_b)
             }));
         }
         solver.factor(&values).map_err(CloseError::Linear)?;
-        let mut pull: Vec<f64> =
-            rows.iter().zip(joints).map(|(row, joint)| joint.gap - row.gap).collect();
+        let mut pull: Vec<f64> = rows.iter().map(|row| row.wanted - row.gap).collect();
         solver.solve(&mut pull);
-        step_ends(axes, &incidence, &rows, &pull, joints);
+        step_ends(axes, &incidence, &rows, &pull);
+        rows = self::rows(axes, joints)?;
     }
     unreachable!("the last round of the loop returns")
 }
 
-/// A joint as one of its rods meets it.
+/// A row as one of its rods meets it.
 #[derive(Clone, Copy)]
 struct Incidence {
-    contact: ContactId,
+    row: usize,
     over: bool,
 }
 
-fn incidence(rods: usize, joints: &IdVec<ContactId, Joint>) -> IdVec<RodId, Vec<Incidence>> {
+fn incidence(rods: usize, rows: &[Row]) -> IdVec<RodId, Vec<Incidence>> {
     let mut around: IdVec<RodId, Vec<Incidence>> = vec![Vec::new(); rods].into();
-    for (contact, joint) in joints.enumerate() {
-        around[joint.over].push(Incidence { contact, over: true });
-        around[joint.under].push(Incidence { contact, over: false });
+    for (row, Row { rods: [over, under], .. }) in rows.iter().enumerate() {
+        around[*over].push(Incidence { row, over: true });
+        around[*under].push(Incidence { row, over: false });
     }
     around
 }
 
-/// The gap of a joint and its gradient.
+/// One equation: a gap, and its gradient. A crossing has one, ends that meet have one for
+/// each axis of space.
 struct Row {
+    contact: ContactId,
+    /// The over rod and the under rod.
+    rods: [RodId; 2],
     gap: f64,
+    wanted: f64,
+    /// What errors are measured by: the rod diameter.
+    diameter: f64,
     across: Vector3,
     /// Where the contact lies between the ends of its two rods, 0 at A and 1 at B.
     at: [f64; 2],
 }
 
 /// The gradient with respect to the ends of one rod: `normal` times the weights.
-struct EndRow {
+struct RodRow {
     normal: Vector3,
     at_a: f64,
     at_b: f64,
 }
 
 impl Row {
-    fn end(&self, over: bool) -> EndRow {
+    fn at_rod(&self, over: bool) -> RodRow {
         let (sign, t) = if over { (1.0, self.at[0]) } else { (-1.0, self.at[1]) };
-        EndRow { normal: self.across * sign, at_a: 1.0 - t, at_b: t }
+        RodRow { normal: self.across * sign, at_a: 1.0 - t, at_b: t }
+    }
+
+    /// The error of the gap, as part of the diameter.
+    fn error(&self) -> f64 {
+        (self.gap - self.wanted).abs() / self.diameter
     }
 }
 
+/// The equations of all joints, in their order.
 fn rows(
     axes: &IdVec<RodId, Axis>,
     joints: &IdVec<ContactId, Joint>,
-) -> Result<IdVec<ContactId, Row>, CloseError> {
-    joints
-        .enumerate()
-        .map(|(id, joint)| {
-            let (over, under) = (&axes[joint.over], &axes[joint.under]);
-            let x = over.cross(under, &joint.outward).ok_or(CloseError::Parallel(id))?;
-            let at = [x.at_first / over.length(), x.at_second / under.length()];
-            Ok(Row { gap: x.rise, across: x.across, at })
-        })
-        .collect()
+) -> Result<Vec<Row>, CloseError> {
+    let mut rows = Vec::with_capacity(joints.len());
+    for (contact, &Joint { over, under, outward, diameter, kind }) in joints.enumerate() {
+        let (rods, [first, second]) = ([over, under], [&axes[over], &axes[under]]);
+        match kind {
+            ContactKind::Cross => {
+                let x = first.cross(second, &outward).ok_or(CloseError::Parallel(contact))?;
+                let at = [x.at_first / first.length(), x.at_second / second.length()];
+                let (gap, across, wanted) = (x.rise, x.across, diameter);
+                rows.push(Row { contact, rods, gap, wanted, diameter, across, at });
+            }
+            ContactKind::End(ends) => {
+                let at = ends.map(|end| if end == End::A { 0.0 } else { 1.0 });
+                let apart = first.end(ends[0]) - second.end(ends[1]);
+                for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
+                    let (gap, across, wanted) = (apart.dot(&axis), axis, 0.0);
+                    rows.push(Row { contact, rods, gap, wanted, diameter, across, at });
+                }
+            }
+        }
+    }
+    Ok(rows)
 }
 
-/// The error of every gap, as part of the wanted one.
-fn errors<'a>(
-    rows: &'a IdVec<ContactId, Row>,
-    joints: &'a IdVec<ContactId, Joint>,
-) -> impl Iterator<Item = (ContactId, f64)> + 'a {
-    rows.enumerate().map(|(id, row)| (id, (row.gap - joints[id].gap).abs() / joints[id].gap))
+/// The contacts whose gaps are still wrong.
+fn open(rows: &[Row]) -> Vec<ContactId> {
+    let wrong = |row: &&Row| row.error().is_nan() || row.error() > GOOD;
+    let mut open: Vec<ContactId> = rows.iter().filter(wrong).map(|row| row.contact).collect();
+    open.dedup();
+    open
 }
 
 /// The larger of two errors; not a number is the worst of all.
@@ -186,25 +210,24 @@ fn worse(a: f64, b: f64) -> f64 {
 fn step_ends(
     axes: &mut IdVec<RodId, Axis>,
     incidence: &IdVec<RodId, Vec<Incidence>>,
-    rows: &IdVec<ContactId, Row>,
+    rows: &[Row],
     pull: &[f64],
-    joints: &IdVec<ContactId, Joint>,
 ) {
     let mut moves = Vec::with_capacity(axes.len());
     let mut part = 1.0f64;
     for around in incidence {
         let (mut a, mut b) = (Vector3::zeros(), Vector3::zeros());
-        let mut gap = f64::INFINITY;
+        let mut diameter = f64::INFINITY;
         for i in around {
-            let row = rows[i.contact].end(i.over);
-            let force = row.normal * pull[i.contact.index()];
+            let row = rows[i.row].at_rod(i.over);
+            let force = row.normal * pull[i.row];
             a += force * row.at_a;
             b += force * row.at_b;
-            gap = gap.min(joints[i.contact].gap);
+            diameter = diameter.min(rows[i.row].diameter);
         }
         let longest = a.norm().max(b.norm());
-        if longest > LONGEST_MOVE * gap {
-            part = part.min(LONGEST_MOVE * gap / longest);
+        if longest > LONGEST_MOVE * diameter {
+            part = part.min(LONGEST_MOVE * diameter / longest);
         }
         moves.push((a, b));
     }
@@ -217,10 +240,11 @@ fn step_ends(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ids::Id;
     use std::f64::consts::TAU;
 
     /// N rods on the ground in a closed circuit, all through nearly one height.
-    fn circuit(n: usize, gap: f64) -> (IdVec<RodId, Axis>, IdVec<ContactId, Joint>) {
+    fn circuit(n: usize, diameter: f64) -> (IdVec<RodId, Axis>, IdVec<ContactId, Joint>) {
         let axes = (0..n)
             .map(|i| {
                 let (sin, cos) = (TAU * i as f64 / n as f64).sin_cos();
@@ -238,7 +262,8 @@ mod tests {
                 over: RodId::new(i),
                 under: RodId::new((i + 1) % n),
                 outward: Vector3::z(),
-                gap,
+                diameter,
+                kind: ContactKind::Cross,
             })
             .collect();
         (axes, joints)
@@ -265,14 +290,14 @@ mod tests {
         let h = 1e-5;
         for (id, joint) in joints.enumerate() {
             for (rod, over) in [(joint.over, true), (joint.under, false)] {
-                let row = base[id].end(over);
+                let row = base[id.index()].at_rod(over);
                 for axis in 0..3 {
                     for (end, weight) in [(0, row.at_a), (1, row.at_b)] {
                         let gaps = [h, -h].map(|h| {
                             let mut moved = axes.clone();
                             let end = if end == 0 { &mut moved[rod].a } else { &mut moved[rod].b };
                             end[axis] += h;
-                            rows(&moved, &joints).unwrap()[id].gap
+                            rows(&moved, &joints).unwrap()[id.index()].gap
                         });
                         let numeric = (gaps[0] - gaps[1]) / (2.0 * h);
                         assert!((numeric - row.normal[axis] * weight).abs() < 1e-7);
@@ -280,6 +305,31 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Two circuits side by side, joined by the ends of one rod of each.
+    #[test]
+    fn ends_that_meet_come_together_exactly() {
+        let (mut axes, mut joints) = circuit(4, 3.0);
+        let (others, theirs) = circuit(4, 3.0);
+        let away = Vector3::new(0.5, 121.0, 1.0);
+        for axis in &others {
+            axes.push(Axis { a: axis.a + away, b: axis.b + away });
+        }
+        let shifted = |r: RodId| RodId::new(r.index() + 4);
+        for joint in &theirs {
+            let (over, under) = (shifted(joint.over), shifted(joint.under));
+            joints.push(Joint { over, under, ..joint.clone() });
+        }
+        let (over, under) = (RodId::new(0), RodId::new(4));
+        let kind = ContactKind::End([End::B, End::A]);
+        joints.push(Joint { over, under, outward: Vector3::z(), diameter: 3.0, kind });
+        let done = close(&mut axes, &joints).unwrap();
+        assert!(done.error <= EXACT && done.steps > 0, "{done:?}");
+        assert!((axes[over].b - axes[under].a).norm() < 1e-11);
+        let rows = rows(&axes, &joints).unwrap();
+        assert_eq!(rows.len(), 8 + 3);
+        assert!(rows[..8].iter().all(|row| (row.gap - 3.0).abs() < 1e-11));
     }
 
     #[test]

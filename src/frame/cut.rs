@@ -1,11 +1,12 @@
 //! Where the contacts lie along the rods, and where each rod is cut: at its
 //! outermost contacts plus the overhang.
 
+use super::ContactKind;
 use super::axis::{Axis, Crossing};
 use super::close::Joint;
 use super::fault::Fault;
-use super::weave::Weave;
-use crate::ids::{ContactId, IdVec, RodId, UnitId};
+use super::weave::{RodEnd, Weave};
+use crate::ids::{ContactId, IdVec, RodId};
 
 /// A contact as it lies along one rod.
 #[derive(Clone, Copy, Debug)]
@@ -14,8 +15,6 @@ pub struct Seat {
     pub contact: ContactId,
     /// Distance from the axis' end A, mm.
     pub at: f64,
-    unit: UnitId,
-    ending: bool,
 }
 
 /// The crossing of every joint's two rods, the over rod first.
@@ -30,26 +29,34 @@ pub fn crossings(
     joints
         .enumerate()
         .map(|(id, j)| {
-            axes[j.over].cross(&axes[j.under], &j.outward).ok_or_else(|| Fault {
-                units: vec![weave.contacts[id].unit],
-                reason: "two of its rods became parallel".into(),
-            })
+            let (over, under) = (&axes[j.over], &axes[j.under]);
+            match j.kind {
+                ContactKind::Cross => over.cross(under, &j.outward).ok_or_else(|| Fault {
+                    units: vec![weave.contacts[id].unit],
+                    reason: "two of its rods became parallel".into(),
+                }),
+                ContactKind::End([first, second]) => Ok(Crossing {
+                    at_first: over.place_of(first),
+                    at_second: under.place_of(second),
+                    across: j.outward,
+                    rise: (over.end(first) - under.end(second)).norm(),
+                }),
+            }
         })
         .collect()
 }
 
 /// The contacts of each rod, from end A to end B.
 pub fn seats(
-    weave: &Weave,
+    rods: usize,
     joints: &IdVec<ContactId, Joint>,
     crossings: &IdVec<ContactId, Crossing>,
 ) -> IdVec<RodId, Vec<Seat>> {
-    let mut seats: IdVec<RodId, Vec<Seat>> = vec![Vec::new(); weave.rods.len()].into();
+    let mut seats: IdVec<RodId, Vec<Seat>> = vec![Vec::new(); rods].into();
     for (contact, joint) in joints.enumerate() {
-        let woven = &weave.contacts[contact];
         let x = &crossings[contact];
         for (rod, at) in [(joint.over, x.at_first), (joint.under, x.at_second)] {
-            seats[rod].push(Seat { contact, at, unit: woven.unit, ending: woven.ending == rod });
+            seats[rod].push(Seat { contact, at });
         }
     }
     for along in seats.iter_mut() {
@@ -58,22 +65,17 @@ pub fn seats(
     seats
 }
 
-/// Units whose contacts came out of order: towards each end of a rod the contact
-/// that passes must come first, then the one in which the rod ends, at least
-/// `apart` mm farther out.
+/// Units of rods along which contacts came out of the order of the pattern, or nearer to
+/// each other than `apart` mm.
 pub fn disorder(weave: &Weave, seats: &IdVec<RodId, Vec<Seat>>, apart: f64) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (r, along) in seats.enumerate() {
-        let [a, b] = weave.rods[r].units;
-        // From end A to end B: ending and passing of unit a, passing and ending of unit b.
-        let wanted = [(a, true), (a, false), (b, false), (b, true)];
-        let wanted = wanted.into_iter().filter_map(|(u, ending)| u.map(|u| (u, ending)));
-        let ordered = wanted.eq(along.iter().map(|s| (s.unit, s.ending)));
+        let rod = &weave.rods[r];
+        let ordered = rod.contacts.iter().eq(along.iter().map(|s| &s.contact));
         let spaced = along.windows(2).all(|s| s[1].at - s[0].at >= apart);
         if !ordered || !spaced {
-            let units = [a, b].into_iter().flatten().collect();
             faults.push(Fault {
-                units,
+                units: rod.units.clone(),
                 reason: "contacts came out of order or too close together along one of its rods"
                     .into(),
             });
@@ -84,13 +86,20 @@ pub fn disorder(weave: &Weave, seats: &IdVec<RodId, Vec<Seat>>, apart: f64) -> V
 
 /// Cuts a rod at its outermost contacts plus the overhang on each side, the length
 /// rounded up to a multiple of `round` mm (0: as it is). What rounding adds goes to
-/// both ends alike, so no contact moves.
-pub fn cut(axis: &Axis, seats: &[Seat], overhang: f64, round: f64) -> Axis {
+/// both ends alike, so no contact moves; but an end that meets another stays where it is.
+pub fn cut(axis: &Axis, ends: [RodEnd; 2], seats: &[Seat], overhang: f64, round: f64) -> Axis {
     let (first, last) = (seats.first(), seats.last());
-    let from = first.map_or(0.0, |s| s.at) - overhang;
-    let to = last.map_or(axis.length(), |s| s.at) + overhang;
+    let beyond = ends.map(|end| if end == RodEnd::Meets { 0.0 } else { overhang });
+    let from = first.map_or(0.0, |s| s.at) - beyond[0];
+    let to = last.map_or(axis.length(), |s| s.at) + beyond[1];
     let extra = rounded_up(to - from, round) - (to - from);
-    axis.between(from - extra / 2.0, to + extra / 2.0)
+    let share = match ends {
+        [RodEnd::Meets, RodEnd::Meets] => [0.0, 0.0],
+        [RodEnd::Meets, _] => [0.0, extra],
+        [_, RodEnd::Meets] => [extra, 0.0],
+        _ => [extra / 2.0; 2],
+    };
+    axis.between(from - share[0], to + share[1])
 }
 
 /// A length this little above a multiple of the rounding step, in steps, counts as
@@ -105,6 +114,18 @@ pub fn rounded_up(length: f64, step: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ids::Id;
+
+    #[test]
+    fn what_rounding_adds_moves_no_end_that_meets_another() {
+        let axis = Axis { a: [0.0; 3].into(), b: [40.25, 0.0, 0.0].into() };
+        let seat = |contact, at| Seat { contact: ContactId::new(contact), at };
+        let seats = [seat(0, 0.0), seat(1, 30.25)];
+        let both = cut(&axis, [RodEnd::Rests; 2], &seats, 6.0, 0.5);
+        assert_eq!((both.a.x, both.b.x), (-6.125, 36.375));
+        let met = cut(&axis, [RodEnd::Meets, RodEnd::Rests], &seats, 6.0, 0.5);
+        assert_eq!((met.a.x, met.b.x), (0.0, 36.5));
+    }
 
     #[test]
     fn lengths_round_up_to_the_step_once() {

@@ -12,9 +12,9 @@ use super::fault::{Fault, cover};
 use super::layer::{Layering, layer};
 use super::lift::{Parallel, lift};
 use super::stand::{Standing, ground_level, stand};
-use super::weave::{Weave, WovenUnit, weave};
-use super::{Dropped, Frame};
-use crate::ids::{ContactId, IdVec, RodId, TileId};
+use super::weave::{Weave, weave};
+use super::{ContactKind, Dropped, Frame};
+use crate::ids::{ContactId, Id, IdVec, RodId, TileId};
 use crate::linalg::LinalgError;
 use std::collections::BTreeSet;
 use thiserror::Error;
@@ -43,8 +43,8 @@ pub struct Formed {
     pub closing: Closing,
     /// How far each end of each rod moved in it, mm.
     pub moves: Vec<f64>,
-    /// Rise of every contact before closing, mm.
-    pub rises: IdVec<ContactId, f64>,
+    /// Rise of every crossing before closing, mm.
+    pub rises: IdVec<ContactId, Option<f64>>,
 }
 
 /// Why there is no frame.
@@ -193,18 +193,18 @@ fn require_room(
     settings: &FormSettings,
 ) -> Result<(), FormError> {
     let (edge, diameter) = (canvas.edge(), settings.diameter);
-    let side = |unit: &WovenUnit, i: usize| {
-        let [a, b] = [i, i + 1].map(|i| unit.contacts[i % unit.contacts.len()]);
-        (weave.contacts[a].on.position - weave.contacts[b].on.position).norm()
+    let apart = |pair: &[ContactId]| {
+        let [a, b] = [pair[0], pair[1]].map(|c| &weave.contacts[c]);
+        (a.unit == b.unit).then(|| (a.unit, (a.on.position - b.on.position).norm()))
     };
-    let mut sides: Vec<(f64, usize)> = weave
-        .units
-        .iter()
-        .map(|unit| {
-            let n = unit.contacts.len();
-            ((0..n).map(|i| side(unit, i)).fold(f64::INFINITY, f64::min), n)
-        })
-        .collect();
+    let mut sides: Vec<(f64, usize)> =
+        weave.units.iter().map(|unit| (f64::INFINITY, unit.sides)).collect();
+    for rod in &weave.rods {
+        for (unit, apart) in rod.contacts.windows(2).filter_map(apart) {
+            let least = &mut sides[unit.index()].0;
+            *least = least.min(apart);
+        }
+    }
     sides.sort_by(|p, q| p.0.total_cmp(&q.0));
     let (apart, sides) = sides[(DROPPED_PART * sides.len() as f64) as usize];
     if apart >= ENGAGEMENT * diameter {
@@ -291,7 +291,13 @@ fn joints(
         .map(|(id, c)| {
             let (over, under) =
                 if ending_over[id] { (c.ending, c.passing) } else { (c.passing, c.ending) };
-            Joint { over, under, outward: c.on.normal, gap: diameter }
+            let kind = match c.kind {
+                ContactKind::End([ending, passing]) if over == c.passing => {
+                    ContactKind::End([passing, ending])
+                }
+                kind => kind,
+            };
+            Joint { over, under, outward: c.on.normal, diameter, kind }
         })
         .collect()
 }
@@ -305,13 +311,17 @@ fn finish(
     settings: &FormSettings,
 ) -> Result<Frame, Vec<Fault>> {
     let FormSettings { diameter, overhang, round, .. } = *settings;
-    let along = seats(weave, joints, &crossings(weave, closed, joints).map_err(|f| vec![f])?);
+    let crossings = crossings(weave, closed, joints).map_err(|f| vec![f])?;
+    let along = seats(closed.len(), joints, &crossings);
     let faults = disorder(weave, &along, ENGAGEMENT * diameter);
     if !faults.is_empty() {
         return Err(faults);
     }
-    let mut axes: IdVec<RodId, Axis> =
-        closed.enumerate().map(|(r, axis)| cut(axis, &along[r], overhang, round)).collect();
+    let ends = |r: RodId| weave.rods[r].ends;
+    let mut axes: IdVec<RodId, Axis> = closed
+        .enumerate()
+        .map(|(r, axis)| cut(axis, ends(r), &along[r], overhang, round))
+        .collect();
     let pairs: BTreeSet<[RodId; 2]> =
         joints.iter().map(|j| [j.over.min(j.under), j.over.max(j.under)]).collect();
     let faults = clash_faults(weave, &axes, diameter, &pairs);
@@ -334,7 +344,7 @@ fn clash_faults(
     clashes(axes, diameter, pairs)
         .iter()
         .map(|clash| {
-            let units = clash.rods.iter().flat_map(|&r| weave.rods[r].units).flatten().collect();
+            let units = clash.rods.iter().flat_map(|&r| weave.rods[r].units.clone()).collect();
             let reason = format!(
                 "one of its rods would run into another: their axes pass at {:.2} mm",
                 clash.distance
@@ -362,7 +372,8 @@ pub fn median_rise(canvas: &impl Canvas) -> Result<(usize, f64), FormError> {
                 Err(Parallel(unit)) => vec![weave.units[unit].tile],
                 Ok(lifted) => {
                     let rises = lifted.rises(&weave);
-                    let mut sizes: Vec<f64> = rises.iter().map(|rise| rise.abs()).collect();
+                    let mut sizes: Vec<f64> =
+                        rises.iter().flatten().map(|rise| rise.abs()).collect();
                     sizes.sort_by(f64::total_cmp);
                     return Ok((tiles.len(), sizes[sizes.len() / 2]));
                 }

@@ -15,12 +15,12 @@ pub enum Layering {
 }
 
 /// For every contact, whether the ending rod goes over the passing one; `rises`
-/// holds the height of the ending rod over the passing one, mm.
-pub fn layer(rises: &IdVec<ContactId, f64>, rule: Layering) -> IdVec<ContactId, bool> {
+/// holds the height of the ending rod over the passing one, mm, and none where ends meet.
+pub fn layer(rises: &IdVec<ContactId, Option<f64>>, rule: Layering) -> IdVec<ContactId, bool> {
     rises
         .iter()
         .map(|&rise| match rule {
-            Layering::Follow => rise >= 0.0,
+            Layering::Follow => rise.is_none_or(|rise| rise >= 0.0),
             Layering::Reciprocal => true,
         })
         .collect()

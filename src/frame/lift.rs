@@ -4,6 +4,7 @@
 //! On a convex surface the ends of a rod then lie above the rods that it ends on
 //! by themselves, by the *rise* of each contact.
 
+use super::ContactKind;
 use super::axis::{Axis, Crossing};
 use super::weave::{Weave, WovenContact};
 use crate::ids::{ContactId, IdVec, RodId, UnitId};
@@ -36,9 +37,13 @@ impl Lifted {
         self.axes[contact.ending].cross(&self.axes[contact.passing], &contact.on.normal)
     }
 
-    /// The rise of every contact: height of the ending rod over the passing one, mm.
-    pub fn rises(&self, weave: &Weave) -> IdVec<ContactId, f64> {
-        let rise = |c| self.crossing(c).map_or(f64::NAN, |x| x.rise);
+    /// The rise of every contact: height of the ending rod over the passing one, mm; none
+    /// where ends meet.
+    pub fn rises(&self, weave: &Weave) -> IdVec<ContactId, Option<f64>> {
+        let rise = |c: &WovenContact| match c.kind {
+            ContactKind::Cross => Some(self.crossing(c).map_or(f64::NAN, |x| x.rise)),
+            ContactKind::End(_) => None,
+        };
         weave.contacts.iter().map(rise).collect()
     }
 }
@@ -49,8 +54,17 @@ fn span_contacts(weave: &Weave, lifted: &mut Lifted) -> Result<(), Parallel> {
     let empty = [f64::INFINITY, f64::NEG_INFINITY];
     let mut spans: IdVec<RodId, [f64; 2]> = weave.rods.iter().map(|_| empty).collect();
     for contact in &weave.contacts {
-        let x = lifted.crossing(contact).ok_or(Parallel(contact.unit))?;
-        for (rod, at) in [(contact.ending, x.at_first), (contact.passing, x.at_second)] {
+        let [ending, passing] = [contact.ending, contact.passing];
+        let at = match contact.kind {
+            ContactKind::Cross => {
+                let x = lifted.crossing(contact).ok_or(Parallel(contact.unit))?;
+                [x.at_first, x.at_second]
+            }
+            ContactKind::End([e, p]) => {
+                [lifted.axes[ending].place_of(e), lifted.axes[passing].place_of(p)]
+            }
+        };
+        for (rod, at) in [ending, passing].into_iter().zip(at) {
             let [lo, hi] = spans[rod];
             spans[rod] = [lo.min(at), hi.max(at)];
         }

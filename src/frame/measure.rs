@@ -1,8 +1,8 @@
 //! What a finished frame is like, in figures.
 
-use super::Frame;
 use super::form::Formed;
 use super::guide::Guide;
+use super::{Contact, ContactKind, Frame};
 use crate::ids::{ContactId, IdVec};
 use crate::surface::Point3;
 use serde::Serialize;
@@ -82,7 +82,10 @@ pub fn measure(formed: &Formed, guide: &Guide) -> Measures {
     lengths.sort_by(f64::total_cmp);
     let distinct = lengths.windows(2).filter(|l| l[1] - l[0] > SAME_LENGTH).count();
     let w = frame.diameter;
-    let gap_error = |gap: f64| (gap - w).abs() / w;
+    let gap_error = |c: &Contact| match c.kind {
+        ContactKind::Cross => (c.gap - w).abs() / w,
+        ContactKind::End(_) => c.gap / w,
+    };
     let middles: IdVec<ContactId, Point3> =
         frame.contacts.ids().map(|c| frame.contact_middle(c)).collect();
     let (angles, sides) = regularity(frame, &middles);
@@ -94,9 +97,9 @@ pub fn measure(formed: &Formed, guide: &Guide) -> Measures {
         total_length: lengths.iter().sum(),
         lengths: [lengths[0], lengths[lengths.len() - 1]],
         distinct_lengths: distinct + 1,
-        worst_gap: frame.contacts.iter().map(|c| gap_error(c.gap)).fold(0.0, f64::max),
+        worst_gap: frame.contacts.iter().map(gap_error).fold(0.0, f64::max),
         moves: spread(formed.moves.iter().map(|m| m / w)),
-        rises: spread(formed.rises.iter().map(|r| r / w)),
+        rises: spread(formed.rises.iter().flatten().map(|r| r / w)),
         from_surface: spread(guide.distances(&middles).into_iter()),
         unit_angles: spread(angles.iter().copied()),
         unit_sides: spread(sides.iter().copied()),
@@ -112,8 +115,12 @@ pub fn measure(formed: &Formed, guide: &Guide) -> Measures {
 fn regularity(frame: &Frame, middles: &IdVec<ContactId, Point3>) -> (Vec<f64>, Vec<f64>) {
     let (mut angles, mut sides) = (Vec::new(), Vec::new());
     for unit in &frame.units {
-        let corner = |i: usize| middles[unit.contacts[i % unit.contacts.len()]];
-        let n = unit.contacts.len();
+        let round = frame.circuit(unit);
+        let n = round.len();
+        if n == 0 {
+            continue;
+        }
+        let corner = |i: usize| middles[round[i % n]];
         let regular = PI - 2.0 * PI / n as f64;
         let lengths: Vec<f64> = (0..n).map(|i| (corner(i + 1) - corner(i)).norm()).collect();
         let mean = lengths.iter().sum::<f64>() / n as f64;

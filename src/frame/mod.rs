@@ -49,15 +49,28 @@ pub struct Frame {
 pub struct Rod {
     /// The axis; it starts at end A, the numbered end.
     pub axis: Axis,
-    /// The units that it belongs to: two inside the frame, one at its border.
+    /// The units that it belongs to: two where they share it.
     pub units: Vec<UnitId>,
+    /// Whether an end of it is free: it is at the border of the frame.
+    pub border: bool,
     /// Its contacts, from end A to end B.
     pub contacts: Vec<ContactId>,
 }
 
-/// A place where one rod crosses over another and touches it.
+/// How two rods touch.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ContactKind {
+    /// One crosses over the other, the axes a diameter apart.
+    Cross,
+    /// Two ends meet, that of the over rod first; over and under only name the rods.
+    End([End; 2]),
+}
+
+/// A place where two rods touch.
 #[derive(Clone, Debug)]
 pub struct Contact {
+    /// How they touch.
+    pub kind: ContactKind,
     /// The rod on the outer side of the surface.
     pub over: RodId,
     /// The rod below.
@@ -68,7 +81,7 @@ pub struct Contact {
     pub at_under: f64,
     /// Between the axes, 0 to π/2.
     pub angle: f64,
-    /// Distance of the axes.
+    /// Distance of the axes: a diameter, and 0 where ends meet.
     pub gap: f64,
     /// Unit normal of the guiding surface at the contact.
     pub normal: Vector3,
@@ -83,9 +96,12 @@ pub struct Unit {
     pub center: SurfacePoint,
     /// Which way the rods run round.
     pub chirality: Chirality,
-    /// Its rods, counter-clockwise seen from outside.
+    /// The number of its outer rods.
+    pub sides: usize,
+    /// Its outer rods, counter-clockwise seen from outside, then its inner ones.
     pub rods: Vec<RodId>,
-    /// Its contacts: contact i lies between rods i and i + 1.
+    /// The contacts in its tile. In a circuit, contact i between outer rods i and i + 1
+    /// comes first.
     pub contacts: Vec<ContactId>,
 }
 
@@ -148,6 +164,21 @@ impl Frame {
         }
     }
 
+    /// The contacts of a unit's circuit, contact i between outer rods i and i + 1; none
+    /// where its outer rods run in no circuit.
+    pub fn circuit<'a>(&self, unit: &'a Unit) -> &'a [ContactId] {
+        let n = unit.sides;
+        let joins = |(i, &c): (usize, &ContactId)| {
+            let [p, q] = [unit.rods[i], unit.rods[(i + 1) % n]];
+            let c = &self.contacts[c];
+            [c.over, c.under] == [p, q] || [c.under, c.over] == [p, q]
+        };
+        match unit.contacts.get(..n) {
+            Some(first) if first.iter().enumerate().all(joins) => first,
+            _ => &[],
+        }
+    }
+
     /// The middle of a contact, half-way between the two axes.
     pub fn contact_middle(&self, contact: ContactId) -> Point3 {
         let c = &self.contacts[contact];
@@ -157,11 +188,7 @@ impl Frame {
 
     /// The position of an end of a rod.
     pub fn end(&self, rod: RodId, end: End) -> Point3 {
-        let axis = &self.rods[rod].axis;
-        match end {
-            End::A => axis.a,
-            End::B => axis.b,
-        }
+        self.rods[rod].axis.end(end)
     }
 
     /// Lower and upper corner of a box round all axes.

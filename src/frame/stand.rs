@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::clash::is_clear;
 use super::cut::rounded_up;
-use super::weave::Weave;
+use super::weave::{RodEnd, Weave};
 use super::{End, Support};
 use crate::ids::{IdVec, RodId};
 use std::collections::BTreeSet;
@@ -35,7 +35,7 @@ pub struct Standing {
 /// they are steep enough, near enough, and stay clear of all other rods.
 pub fn stand(weave: &Weave, axes: &mut IdVec<RodId, Axis>, how: &Standing) -> Vec<Support> {
     let mut supports = Vec::new();
-    for r in weave.rods.ids().filter(|&r| weave.rods[r].units[0].is_none()) {
+    for r in weave.rods.ids().filter(|&r| weave.rods[r].ends[0] == RodEnd::Free) {
         let Some(longer) = let_down(&axes[r], how) else { continue };
         if is_clear(&longer, axes, how.diameter, &with_partners(weave, r)) {
             axes[r] = longer;
@@ -45,15 +45,10 @@ pub fn stand(weave: &Weave, axes: &mut IdVec<RodId, Axis>, how: &Standing) -> Ve
     supports
 }
 
-/// A rod and the rods that it touches, all of them in its own units.
+/// A rod and the rods that it touches.
 fn with_partners(weave: &Weave, rod: RodId) -> BTreeSet<RodId> {
-    let units = weave.rods[rod].units.into_iter().flatten();
-    units
-        .flat_map(|u| &weave.units[u].contacts)
-        .map(|&c| [weave.contacts[c].ending, weave.contacts[c].passing])
-        .filter(|pair| pair.contains(&rod))
-        .flatten()
-        .collect()
+    let contacts = weave.rods[rod].contacts.iter().map(|&c| &weave.contacts[c]);
+    contacts.flat_map(|c| [c.ending, c.passing]).collect()
 }
 
 /// The rod with end A on the ground; what rounding adds goes to end B.

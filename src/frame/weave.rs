@@ -1,11 +1,13 @@
 //! Rods, units and contacts: who meets whom, and the places on the surface through
 //! which the rods are to run (paper, section 4.2).
 
-use super::Chirality;
+mod thread;
+
 use super::canvas::Canvas;
+use super::{Chirality, ContactKind};
 use crate::chart::SurfacePoint;
-use crate::ids::{ContactId, Id, IdVec, RodId, TileEdgeId, TileId, UnitId};
-use crate::pattern::FlatUnit;
+use crate::ids::{ContactId, Id, IdVec, RodId, TileId, UnitId};
+use crate::pattern::{Guest, Line, Meetings, Unmet};
 use crate::surface::Point3;
 
 /// A reciprocal pattern on its surface, before any rod is straight.
@@ -19,24 +21,42 @@ pub struct Weave {
     pub units: IdVec<UnitId, WovenUnit>,
 }
 
-/// A rod across a tile edge.
+/// A rod.
 #[derive(Clone, Debug)]
 pub struct WovenRod {
-    /// The unit at end A and the unit at end B. A border rod has none at end A.
-    pub units: [Option<UnitId>; 2],
-    /// Two places of the surface, towards end A and towards end B: the middles of its
-    /// sides of the two inner polygons; for a border rod, first its tile edge.
+    /// The units that it belongs to: two where they share it, that at end A first.
+    pub units: Vec<UnitId>,
+    /// What is at end A and at end B. Rods that leave their unit do so at end A.
+    pub ends: [RodEnd; 2],
+    /// Two places of the surface, towards end A and towards end B: half-way between the
+    /// last two contacts where it rests, so that the end comes to lie on what it rests on;
+    /// where it does not, its very end.
     pub through: [Point3; 2],
+    /// Its contacts, from end A to end B.
+    pub contacts: Vec<ContactId>,
+}
+
+/// What is at the end of a rod.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum RodEnd {
+    /// Nothing: it is at the border of the frame.
+    Free,
+    /// It rests on the rod of its last contact.
+    Rests,
+    /// It meets the end of another rod.
+    Meets,
 }
 
 /// A contact.
 #[derive(Clone, Debug)]
 pub struct WovenContact {
+    /// How the two touch; of ends, that of the ending rod first.
+    pub kind: ContactKind,
     /// The rod that ends there, but for its overhang.
     pub ending: RodId,
     /// The rod that passes.
     pub passing: RodId,
-    /// The unit.
+    /// The unit in whose tile it lies.
     pub unit: UnitId,
     /// Where on the surface.
     pub on: SurfacePoint,
@@ -51,9 +71,12 @@ pub struct WovenUnit {
     pub center: SurfacePoint,
     /// Which way its rods run.
     pub chirality: Chirality,
-    /// Its rods, counter-clockwise.
+    /// The number of its outer rods.
+    pub sides: usize,
+    /// Its outer rods, counter-clockwise, then its inner ones.
     pub rods: Vec<RodId>,
-    /// Its contacts: contact i lies between rods i and i + 1.
+    /// The contacts in its tile. In a circuit, contact i between outer rods i and i + 1
+    /// comes first.
     pub contacts: Vec<ContactId>,
 }
 
@@ -66,100 +89,68 @@ pub struct Unweavable {
     pub reason: &'static str,
 }
 
-/// A tile with its rods laid out and placed on the surface.
+/// A tile whose rods are laid out, and placed on the surface.
 struct Placed {
+    tile: TileId,
     center: SurfacePoint,
-    counter_clockwise: bool,
-    /// For each edge, where the rod crosses it, and the middle of the rod's side.
-    rods: Vec<[Point3; 2]>,
-    contacts: Vec<SurfacePoint>,
+    /// The lines of its outer rods, in the order of its edges.
+    lines: Vec<Line>,
+    /// The number of its inner rods.
+    inner: usize,
+    guests: Vec<Guest>,
+    meetings: Meetings,
+    /// Where the contacts lie on the surface.
+    on: Vec<SurfacePoint>,
 }
 
-/// Weaves shared rods on the given tiles. Units and rods are numbered in the order of
-/// the tiles.
+/// Weaves the given tiles. Units and rods are numbered in the order of the tiles.
 ///
 /// # Errors
-/// All tiles that reach beyond the surface, or whose rods form no circuit.
+/// All tiles that reach beyond the surface, or whose rods form no unit.
 pub fn weave(canvas: &impl Canvas, tiles: &[TileId]) -> Result<Weave, Vec<Unweavable>> {
-    let net = canvas.net();
+    let mut unit_of: IdVec<TileId, Option<UnitId>> = vec![None; canvas.net().tiles.len()].into();
+    for (i, &tile) in tiles.iter().enumerate() {
+        unit_of[tile] = Some(UnitId::new(i));
+    }
     let (mut placed, mut failed) = (Vec::with_capacity(tiles.len()), Vec::new());
     for &tile in tiles {
-        match place(canvas, tile) {
+        match place(canvas, tile, &unit_of) {
             Ok(unit) => placed.push(unit),
             Err(fault) => failed.push(fault),
         }
     }
-    if !failed.is_empty() {
-        return Err(failed);
-    }
-    let mut unit_of: IdVec<TileId, Option<UnitId>> = vec![None; net.tiles.len()].into();
-    for (i, &tile) in tiles.iter().enumerate() {
-        unit_of[tile] = Some(UnitId::new(i));
-    }
-    // Where the rod of an edge runs, seen from one of its two tiles.
-    let seen = |edge: TileEdgeId, tile: TileId| {
-        let unit = unit_of[tile]?;
-        let side = net.tiles[tile].edges.iter().position(|&e| e == edge)?;
-        Some((unit, placed[unit.index()].rods[side]))
-    };
-    let rod = |e: TileEdgeId| {
-        let edge = &net.edges[e];
-        match (seen(e, edge.left), edge.right.and_then(|t| seen(e, t))) {
-            (Some((a, [_, p])), Some((b, [_, q]))) => {
-                WovenRod { units: [Some(a), Some(b)], through: [p, q] }
-            }
-            (Some((unit, through)), None) | (None, Some((unit, through))) => {
-                WovenRod { units: [None, Some(unit)], through }
-            }
-            (None, None) => unreachable!("rods are made for the edges of tiles that have a unit"),
-        }
-    };
-    let mut rod_of: IdVec<TileEdgeId, Option<RodId>> = vec![None; net.edges.len()].into();
-    let mut weave = Weave::default();
-    for (&tile, placed) in tiles.iter().zip(&placed) {
-        let rods = net.tiles[tile]
-            .edges
-            .iter()
-            .map(|&e| *rod_of[e].get_or_insert_with(|| weave.rods.push(rod(e))))
-            .collect();
-        add_unit(&mut weave, tile, placed, rods);
-    }
-    Ok(weave)
+    if failed.is_empty() { thread::thread(canvas, &placed.into(), &unit_of) } else { Err(failed) }
 }
 
-fn place(canvas: &impl Canvas, tile: TileId) -> Result<Placed, Unweavable> {
-    let outside = Unweavable { tile, reason: "reaches beyond the surface" };
-    let uneven = Unweavable { tile, reason: "its tile is too uneven: the rods form no circuit" };
-    let on = |p| canvas.place(tile, p).ok_or_else(|| outside.clone());
-    let lines = canvas.lines(tile);
-    let unit = FlatUnit::new(&lines).ok_or(uneven)?;
-    let rods = lines
-        .iter()
-        .zip(&unit.middles)
-        .map(|(line, &middle)| Ok([on(line.at)?.position, on(middle)?.position]))
-        .collect::<Result<_, _>>()?;
-    Ok(Placed {
-        center: on(canvas.middle(tile))?,
-        counter_clockwise: unit.counter_clockwise,
-        rods,
-        contacts: unit.contacts.iter().map(|&p| on(p)).collect::<Result<_, _>>()?,
-    })
-}
-
-fn add_unit(weave: &mut Weave, tile: TileId, placed: &Placed, rods: Vec<RodId>) {
-    let unit = UnitId::new(weave.units.len());
-    let n = rods.len();
-    let contacts = (0..n)
-        .map(|i| {
-            let (first, second) = (rods[i], rods[(i + 1) % n]);
-            let (ending, passing) =
-                if placed.counter_clockwise { (second, first) } else { (first, second) };
-            weave.contacts.push(WovenContact { ending, passing, unit, on: placed.contacts[i] })
+fn place(
+    canvas: &impl Canvas,
+    tile: TileId,
+    unit_of: &IdVec<TileId, Option<UnitId>>,
+) -> Result<Placed, Unweavable> {
+    let fault = |reason| Unweavable { tile, reason };
+    let on = |p| canvas.place(tile, p).ok_or(fault("reaches beyond the surface"));
+    let net = canvas.net();
+    let figure = canvas.figure(tile);
+    let comes = |side: usize| {
+        let other = net.across(net.tiles[tile].edges[side], tile)?;
+        unit_of[other].and(canvas.guest(tile, side))
+    };
+    let guests: Vec<Guest> = (0..figure.outer.len()).filter_map(comes).collect();
+    let meetings = figure.meetings(&guests).map_err(|unmet| {
+        fault(match unmet {
+            Unmet::NoCircuit => "its tile is too uneven: the rods form no circuit",
+            Unmet::Guest(_) => "a rod of a neighbour that should rest on one of its rods misses",
         })
-        .collect();
-    let chirality =
-        if placed.counter_clockwise { Chirality::CounterClockwise } else { Chirality::Clockwise };
-    weave.units.push(WovenUnit { tile, center: placed.center, chirality, rods, contacts });
+    })?;
+    Ok(Placed {
+        tile,
+        center: on(canvas.middle(tile))?,
+        on: meetings.all.iter().map(|m| on(m.at)).collect::<Result<_, _>>()?,
+        meetings,
+        lines: figure.outer,
+        inner: figure.inner.len(),
+        guests,
+    })
 }
 
 #[cfg(test)]
@@ -189,9 +180,10 @@ mod tests {
                 passing[c.passing.index()] += 1;
             }
             for (r, rod) in weave.rods.enumerate() {
-                let units = rod.units.iter().flatten().count();
+                let units = rod.units.len();
                 assert_eq!((ending[r.index()], passing[r.index()]), (units, units), "{r}");
-                assert!(rod.units[1].is_some(), "{r}: end B always belongs to a unit");
+                assert_eq!(rod.ends[0] == RodEnd::Free, units == 1, "{r}");
+                assert_eq!(rod.contacts.len(), 2 * units);
             }
             for unit in &weave.units {
                 assert_eq!(unit.contacts.len(), unit.rods.len());

@@ -7,10 +7,12 @@
 mod changes;
 mod file;
 mod library;
+mod meeting;
 mod unit;
 
 pub use file::PatternError;
 pub use library::library;
+pub use meeting::{Figure, Guest, Meeting, Meetings, Member, Unmet};
 pub use unit::{FlatUnit, Line};
 
 use crate::tiling::UniformTiling;

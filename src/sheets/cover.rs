@@ -7,8 +7,8 @@ use super::view::View;
 use super::{SheetError, SheetSettings};
 use crate::drawing::font::{LEADING, fit_size, wrap};
 use crate::drawing::{Draw, Point, Rect, Weight};
-use crate::frame::{Chirality, Frame};
-use crate::shop::{CutPlan, classes};
+use crate::frame::{Chirality, ContactKind, Frame};
+use crate::shop::{CutPlan, Side, classes};
 
 /// Least height of the two views, mm.
 const LEAST_VIEW: f64 = 55.0;
@@ -34,7 +34,8 @@ pub(super) fn cover(
     let width = area.width() - RULER_COLUMN;
     let two = width >= TWO_COLUMNS;
     let column = if two { (width - GAP) / 2.0 } else { width };
-    let blocks = Blocks { facts: facts(frame, plan, settings, column)?, guide: guide(column)? };
+    let blocks =
+        Blocks { facts: facts(frame, plan, settings, column)?, guide: guide(frame, column)? };
     let below = blocks.height(two) + GAP + CALIBRATION[1] + 2.0 * GAP + RULER_WIDTH;
     views(&mut flow, frame, width, below);
     let left = area.min[0];
@@ -84,7 +85,7 @@ struct Line {
     text: String,
     style: Style,
     indent: f64,
-    sign: Option<bool>,
+    sign: Option<Side>,
 }
 
 #[derive(Clone, Copy)]
@@ -130,7 +131,7 @@ impl Block {
         text: &str,
         width: f64,
         indent: f64,
-        sign: Option<bool>,
+        sign: Option<Side>,
     ) -> Result<(), SheetError> {
         for (i, text) in wrap(text, BODY, Weight::Regular, width - indent)?.into_iter().enumerate()
         {
@@ -146,8 +147,8 @@ impl Block {
     fn draw(&self, out: &mut impl Draw, [x, y]: Point) {
         for line in &self.lines {
             let at = [x + line.indent, y + line.y];
-            if let Some(over) = line.sign {
-                sign(out, [x + 4.0, at[1] - BODY * 0.36], "a", over);
+            if let Some(side) = line.sign {
+                sign(out, [x + 4.0, at[1] - BODY * 0.36], "a", side);
             }
             match line.style {
                 Style::Heading => drop(out.text(at, HEADING, line.text.as_str()).bold()),
@@ -237,7 +238,7 @@ fn size(frame: &Frame) -> [f64; 3] {
     [hi.x - lo.x + w, hi.y - lo.y + w, hi.z + w / 2.0 - frame.ground.min(lo.z)]
 }
 
-fn guide(width: f64) -> Result<Block, SheetError> {
+fn guide(frame: &Frame, width: f64) -> Result<Block, SheetError> {
     let mut block = Block::new();
     block.heading("How to read a rod card");
     block.text("Lay the rod with its numbered end, end A, at the black triangle.", width)?;
@@ -246,9 +247,23 @@ fn guide(width: f64) -> Result<Block, SheetError> {
         "O, whole line: this rod lies over its partner, on the outer side.",
         width,
         indent,
-        Some(true),
+        Some(Side::Over),
     )?;
-    block.signed("U, broken line: this rod lies under its partner.", width, indent, Some(false))?;
+    block.signed(
+        "U, broken line: this rod lies under its partner.",
+        width,
+        indent,
+        Some(Side::Under),
+    )?;
+    let end = frame.contacts.iter().find_map(|c| match c.kind {
+        ContactKind::End([end, _]) => Some(end),
+        ContactKind::Cross => None,
+    });
+    if let Some(end) = end {
+        let text =
+            "E: this rod's end meets an end of its partner; join them with a sleeve or tape.";
+        block.signed(text, width, indent, Some(Side::Meets(end)))?;
+    }
     block.text("Below the rod, a line for every mark:", width)?;
     block.verbatim("b   112.4   U   R009 c @ 118.3   41.2°   clock 187.0°   ends", width)?;
     block.text(

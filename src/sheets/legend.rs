@@ -3,6 +3,7 @@
 use super::PaperUnits;
 use super::page::{SMALL, THIN};
 use crate::drawing::{Color, Dash, Draw, Item, Point, Stroke};
+use crate::shop::Side;
 use crate::units::MM_PER_INCH;
 
 /// Sides of the outer calibration box, mm: 10 × 5 cm.
@@ -25,13 +26,13 @@ pub(super) const OVER_TICK: Stroke = Stroke::new(0.35);
 /// The line of a mark where the rod is under its partner: broken.
 pub(super) const UNDER_TICK: Stroke = Stroke::new(0.35).dash(Dash::new([0.7, 0.45]));
 
-/// The sign of a mark: its letter, and `O` on black or `U` on white.
-pub(super) fn sign(out: &mut impl Draw, [x, y]: Point, letter: &str, over: bool) {
+/// The sign of a mark: its letter, and `O` on black, `U` or `E` on white.
+pub(super) fn sign(out: &mut impl Draw, [x, y]: Point, letter: &str, side: Side) {
     let corner = [x - SIGN_HALF, y - SIGN_HEIGHT / 2.0];
     let size = [2.0 * SIGN_HALF, SIGN_HEIGHT];
-    let text = format!("{letter} {}", if over { "O" } else { "U" });
+    let text = format!("{letter} {}", side.letter());
     let pen = Stroke::new(0.25);
-    if over {
+    if side == Side::Over {
         out.rect(corner, size, pen.fill(Color::BLACK));
         out.text([x, y], 2.9, text).bold().middle().vcenter().color(Color::WHITE);
     } else {

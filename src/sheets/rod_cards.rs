@@ -8,7 +8,7 @@ use crate::drawing::font::{LEADING, elide, text_width};
 use crate::drawing::{Anchor, Color, Draw, DrawingError, Item, Placement, Stroke, Weight};
 use crate::frame::{End, Frame};
 use crate::ids::RodId;
-use crate::shop::{Foot, LengthClasses, Mark, classes, feet, marks};
+use crate::shop::{Foot, LengthClasses, Mark, Side, classes, feet, marks};
 use std::collections::BTreeMap;
 
 /// Font size of the rod's number, mm.
@@ -116,13 +116,13 @@ impl<'a> Book<'a> {
             let y = top + BODY + LINE * i as f64;
             items.text([letter, y], BODY, mark.letter.as_str()).bold();
             items.text([at, y], BODY, units.length(mark.at)).bold().end();
-            items.text([side, y], BODY, if mark.over { "O" } else { "U" }).bold();
+            items.text([side, y], BODY, mark.side.letter()).bold();
             let distance = units.length(mark.at_partner);
             let text = format!("{} {} @ {distance}", mark.partner, mark.partner_letter);
             items.text([partner, y], BODY, text);
             items.text([crossing, y], BODY, angle(mark.angle)).end();
             items.text([clock, y], BODY, format!("clock {}", heading(mark.clock))).end();
-            items.text([ending, y], SMALL, if mark.ending { "ends" } else { "passes" });
+            items.text([ending, y], SMALL, word(mark));
         }
         if marks.is_empty() {
             items.text([letter, top + TABLE], BODY, "no contacts");
@@ -145,5 +145,14 @@ impl<'a> Book<'a> {
             ]
         };
         feet.iter().flat_map(lines).collect()
+    }
+}
+/// What becomes of a rod at a mark.
+fn word(mark: &Mark) -> &'static str {
+    match (mark.side, mark.ending) {
+        (Side::Meets(End::A), _) => "meets its end A",
+        (Side::Meets(End::B), _) => "meets its end B",
+        (_, true) => "ends",
+        (_, false) => "passes",
     }
 }

@@ -5,7 +5,7 @@ use super::legend::{OVER_TICK, SIGN_HALF, SIGN_HEIGHT, UNDER_TICK, sign};
 use super::page::{SMALL, THIN};
 use crate::drawing::font::text_width;
 use crate::drawing::{Color, Draw, DrawingError, Point, Stroke, Weight};
-use crate::shop::Mark;
+use crate::shop::{Mark, Side};
 
 /// Room left of end A for the triangle and what it says, mm.
 const BEFORE: f64 = 19.0;
@@ -76,8 +76,8 @@ impl Strip {
         let top = y + SIGN_HEIGHT + LEADER;
         self.rod(out, [x, top]);
         self.ends(out, [x, top]);
-        for over in [true, false] {
-            self.marks(out, [x, top], marks, over);
+        for above in [true, false] {
+            self.marks(out, [x, top], marks, above);
         }
         self.figures(out, [x, top], marks, units)
     }
@@ -126,28 +126,28 @@ impl Strip {
         out.text([b, middle], 4.0, "B").bold().vcenter();
     }
 
-    /// Ticks and signs of the marks on one side: over above the rod, under below.
-    fn marks(&self, out: &mut impl Draw, [x, top]: Point, marks: &[Mark], over: bool) {
+    /// Ticks and signs of the marks on one side: under below the rod, all others above.
+    fn marks(&self, out: &mut impl Draw, [x, top]: Point, marks: &[Mark], above: bool) {
         let stops = &self.stops[1..];
         let mine: Vec<(&Mark, f64)> = marks
             .iter()
             .zip(stops)
-            .filter(|(m, _)| m.over == over)
+            .filter(|(m, _)| (m.side != Side::Under) == above)
             .map(|(m, stop)| (m, x + stop.1))
             .collect();
         let at: Vec<f64> = mine.iter().map(|(_, x)| *x).collect();
         let end = x + self.stops[self.stops.len() - 1].1 + AFTER;
         let signs = spread(&at, [x + BEFORE - 1.0, end - SIGN_HALF]);
         let bottom = top + self.thickness;
-        let (edge, far) = if over { (top, top - LEADER) } else { (bottom, bottom + LEADER) };
+        let (edge, far) = if above { (top, top - LEADER) } else { (bottom, bottom + LEADER) };
         let knee = edge + (far - edge) * 0.4;
-        let stroke = if over { OVER_TICK } else { UNDER_TICK };
+        let stroke = if above { OVER_TICK } else { UNDER_TICK };
         for ((mark, x), sign_x) in mine.into_iter().zip(signs) {
-            let opposite = if over { bottom } else { top };
+            let opposite = if above { bottom } else { top };
             out.line([x, opposite], [x, knee], stroke);
             out.line([x, knee], [sign_x, far], THIN);
-            let middle = if over { far - SIGN_HEIGHT / 2.0 } else { far + SIGN_HEIGHT / 2.0 };
-            sign(out, [sign_x, middle], &mark.letter, over);
+            let middle = if above { far - SIGN_HEIGHT / 2.0 } else { far + SIGN_HEIGHT / 2.0 };
+            sign(out, [sign_x, middle], &mark.letter, mark.side);
         }
     }
 

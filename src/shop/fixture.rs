@@ -3,7 +3,7 @@
 use crate::chart::SurfacePoint;
 use crate::frame::axis::Axis;
 use crate::frame::close::{Joint, close};
-use crate::frame::{Chirality, Contact, End, Frame, Rod, Support, Unit};
+use crate::frame::{Chirality, Contact, ContactKind, End, Frame, Rod, Support, Unit};
 use crate::ids::{ContactId, Id, IdVec, RodId, UnitId};
 use crate::surface::Vector3;
 use std::f64::consts::TAU;
@@ -19,7 +19,13 @@ pub(crate) fn circuit(n: usize, diameter: f64) -> Frame {
     let mut axes: IdVec<RodId, Axis> = (0..n).map(|i| tangent(i, n, 2.0 * diameter)).collect();
     let id = |i: usize| RodId::new(i % n);
     let joints: IdVec<ContactId, Joint> = (0..n)
-        .map(|i| Joint { over: id(i), under: id(i + 1), outward: Vector3::z(), gap: diameter })
+        .map(|i| Joint {
+            over: id(i),
+            under: id(i + 1),
+            outward: Vector3::z(),
+            diameter,
+            kind: ContactKind::Cross,
+        })
         .collect();
     close(&mut axes, &joints).unwrap();
     let axes: IdVec<RodId, Axis> = (0..n).map(|i| cut(&axes, &joints, i)).collect();
@@ -27,13 +33,19 @@ pub(crate) fn circuit(n: usize, diameter: f64) -> Frame {
     let around = |i: usize| vec![ContactId::new((i + n - 1) % n), ContactId::new(i)];
     let rods: IdVec<RodId, Rod> = axes
         .enumerate()
-        .map(|(r, &axis)| Rod { axis, units: vec![UnitId::new(0)], contacts: around(r.index()) })
+        .map(|(r, &axis)| Rod {
+            axis,
+            units: vec![UnitId::new(0)],
+            border: true,
+            contacts: around(r.index()),
+        })
         .collect();
     let supports =
         rods.enumerate().map(|(rod, r)| Support { rod, end: End::A, point: r.axis.a }).collect();
     let unit = Unit {
         center: SurfacePoint { position: [0.0, 0.0, 2.0 * diameter].into(), normal: Vector3::z() },
         chirality: Chirality::CounterClockwise,
+        sides: n,
         rods: rods.ids().collect(),
         contacts: contacts.ids().collect(),
     };
@@ -69,6 +81,7 @@ fn contact(axes: &IdVec<RodId, Axis>, joint: &Joint) -> Contact {
     let (over, under) = (&axes[joint.over], &axes[joint.under]);
     let x = over.cross(under, &joint.outward).unwrap();
     Contact {
+        kind: joint.kind,
         over: joint.over,
         under: joint.under,
         at_over: x.at_first,

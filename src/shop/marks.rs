@@ -1,14 +1,36 @@
 //! Marks on a rod: where it meets its partners, and how.
 
 use super::letters;
-use crate::frame::Frame;
-use crate::ids::{ContactId, RodId, UnitId};
+use crate::frame::{ContactKind, End, Frame};
+use crate::ids::{ContactId, RodId};
 use crate::surface::Vector3;
 use std::f64::consts::TAU;
 
 /// Angles this near to a full turn are printed as none, radians: far below what a
 /// protractor shows, far above rounding.
 const FULL_TURN: f64 = 1e-9;
+
+/// How a rod lies to its partner.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Side {
+    /// Over it, on the outer side of the surface.
+    Over,
+    /// Under it.
+    Under,
+    /// End to end: its partner's end that it meets.
+    Meets(End),
+}
+
+impl Side {
+    /// `O`, `U` or `E`, as papers mark it.
+    pub fn letter(self) -> &'static str {
+        match self {
+            Self::Over => "O",
+            Self::Under => "U",
+            Self::Meets(_) => "E",
+        }
+    }
+}
 
 /// A contact as it is marked on one of its two rods. mm and radians.
 #[derive(Clone, PartialEq, Debug)]
@@ -19,8 +41,8 @@ pub struct Mark {
     pub letter: String,
     /// Distance from end A.
     pub at: f64,
-    /// Whether this rod lies over its partner.
-    pub over: bool,
+    /// How this rod lies to its partner.
+    pub side: Side,
     /// The other rod.
     pub partner: RodId,
     /// The letter of the same contact on the other rod.
@@ -30,7 +52,8 @@ pub struct Mark {
     /// Between the two axes, 0 to π/2.
     pub angle: f64,
     /// Where the partner lies round this rod: clockwise, seen from end A, from the
-    /// partner of the first mark. 0 to 2π.
+    /// partner of the first mark. 0 to 2π. Of a partner that it meets end to end: where
+    /// that goes off.
     pub clock: f64,
     /// Whether this rod ends here, but for its overhang; if not, it goes on through.
     pub ending: bool,
@@ -49,7 +72,7 @@ pub fn marks(frame: &Frame, rod: RodId) -> Vec<Mark> {
             contact,
             letter: letters(i, 'a'),
             at: seen.at,
-            over: seen.over,
+            side: side(frame, contact, seen.over),
             partner: seen.partner,
             partner_letter: letter_on(frame, contact, seen.partner),
             at_partner: seen.at_partner,
@@ -59,6 +82,15 @@ pub fn marks(frame: &Frame, rod: RodId) -> Vec<Mark> {
         }
     };
     contacts.iter().enumerate().map(mark).collect()
+}
+
+fn side(frame: &Frame, contact: ContactId, over: bool) -> Side {
+    match (frame.contacts[contact].kind, over) {
+        (ContactKind::Cross, true) => Side::Over,
+        (ContactKind::Cross, false) => Side::Under,
+        (ContactKind::End([_, under]), true) => Side::Meets(under),
+        (ContactKind::End([over, _]), false) => Side::Meets(over),
+    }
 }
 
 /// The contacts of a rod by distance from end A.
@@ -74,9 +106,16 @@ fn letter_on(frame: &Frame, contact: ContactId, rod: RodId) -> String {
     place.map_or_else(String::new, |i| letters(i, 'a'))
 }
 
-/// From the axis of `rod` across to the axis of its partner.
+/// From the axis of `rod` across to the axis of its partner; to the far end of a partner
+/// that it meets end to end, as seen along the rod.
 fn toward_partner(frame: &Frame, contact: ContactId, rod: RodId) -> Vector3 {
     let seen = frame.seen_from(contact, rod);
+    if let Side::Meets(end) = side(frame, contact, seen.over) {
+        let along = frame.rods[rod].axis.direction();
+        let partner = &frame.rods[seen.partner].axis;
+        let away = if end == End::A { partner.direction() } else { -partner.direction() };
+        return away - along * away.dot(&along);
+    }
     let here = frame.rods[rod].axis.at(seen.at);
     let there = frame.rods[seen.partner].axis.at(seen.at_partner);
     there - here
@@ -90,28 +129,12 @@ fn right_handed_turn(from: &Vector3, to: &Vector3, axis: &Vector3) -> f64 {
     if TAU - angle < FULL_TURN { 0.0 } else { angle }
 }
 
-/// The contacts at which a rod ends. Of the two contacts that it has in a unit, it
-/// ends at the outer one: away from its other unit, or, if it has one unit only,
-/// where less of it is left.
+/// The contacts at which a rod ends: its last one, and its first one unless its end A is
+/// free.
 fn ending_contacts(frame: &Frame, rod: RodId) -> Vec<ContactId> {
     let contacts = in_order(frame, rod);
-    let at = |c: ContactId| frame.seen_from(c, rod).at;
-    let unit = |c: ContactId| frame.contacts[c].unit;
-    let mut units: Vec<UnitId> = contacts.iter().map(|&c| unit(c)).collect();
-    units.sort();
-    units.dedup();
-    let mut ending = Vec::new();
-    for u in units {
-        let (mine, others): (Vec<ContactId>, Vec<_>) =
-            contacts.iter().partition(|&&c| unit(c) == u);
-        let [first, .., last] = mine[..] else { continue };
-        let at_a = match others.first() {
-            Some(&other) => at(other) > at(first),
-            None => at(first) < frame.rods[rod].axis.length() - at(last),
-        };
-        ending.push(if at_a { first } else { last });
-    }
-    ending
+    let first = contacts.first().filter(|_| !frame.rods[rod].border);
+    first.into_iter().chain(contacts.last()).copied().collect()
 }
 
 #[cfg(test)]
@@ -138,7 +161,7 @@ mod tests {
                 let letters: Vec<_> = marks.iter().map(|m| m.letter.as_str()).collect();
                 assert_eq!(letters, ["a", "b"]);
                 // It passes under the rod before it and ends over the one after it.
-                assert_eq!([marks[0].over, marks[1].over], [false, true]);
+                assert_eq!([marks[0].side, marks[1].side], [Side::Under, Side::Over]);
                 assert_eq!([marks[0].ending, marks[1].ending], [false, true]);
                 assert_eq!(marks[1].partner_letter, "a");
                 assert_eq!(marks[0].clock, 0.0);

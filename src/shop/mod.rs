@@ -15,7 +15,7 @@ pub(crate) mod fixture;
 pub use cutlist::{Bar, BarGroup, CutError, CutPlan, Piece, Stock};
 pub use feet::{Foot, feet};
 pub use lengths::{LengthClass, LengthClasses, classes};
-pub use marks::{Mark, marks};
+pub use marks::{Mark, Side, marks};
 
 /// A name in letters, counted from zero: `a` … `z`, `aa`, `ab` … with `first` = `'a'`.
 pub(crate) fn letters(index: usize, first: char) -> String {

@@ -16,7 +16,7 @@ pub(super) use cylinder::SIDES;
 pub use plain::{mesh_glb, mesh_gltf};
 
 use super::figure::rounded;
-use super::structure::{ContactEntry, ContactKind, EndName, RodEntry, Structure, SupportEntry};
+use super::structure::{ContactEntry, ContactKindName, EndName, RodEntry, Structure, SupportEntry};
 use cylinder::{Cylinder, push_cylinder};
 use gltf::binary::{Glb, Header};
 use gltf_json::extras::{Extras, RawValue};
@@ -232,8 +232,8 @@ fn contact_point(c: &ContactEntry, rods: &HashMap<&str, &RodEntry>) -> Result<[f
         let rod = rods.get(id).ok_or_else(|| GlbError::MissingRod(id.to_owned()))?;
         let [a, b] = [rod.a, rod.b].map(Vector3::from);
         Ok::<_, GlbError>(match (c.kind, end) {
-            (ContactKind::End, Some(EndName::A)) => a,
-            (ContactKind::End, Some(EndName::B)) => b,
+            (ContactKindName::End, Some(EndName::A)) => a,
+            (ContactKindName::End, Some(EndName::B)) => b,
             _ => a + (b - a).normalize() * at,
         })
     };

@@ -68,7 +68,7 @@ pub struct ContactEntry {
     /// `C0001` …
     pub id: String,
     /// How they touch.
-    pub kind: ContactKind,
+    pub kind: ContactKindName,
     /// The rod on the outer side.
     pub over: String,
     /// The other rod.
@@ -96,19 +96,28 @@ pub struct ContactEntry {
 /// How two rods touch.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum ContactKind {
+pub enum ContactKindName {
     /// One lies across the other.
     Cross,
     /// Two ends meet.
     End,
 }
 
-impl ContactKind {
+impl ContactKindName {
     /// `cross` or `end`, as files name it.
     pub fn code(self) -> &'static str {
         match self {
             Self::Cross => "cross",
             Self::End => "end",
+        }
+    }
+}
+
+impl From<crate::frame::ContactKind> for ContactKindName {
+    fn from(kind: crate::frame::ContactKind) -> Self {
+        match kind {
+            crate::frame::ContactKind::Cross => Self::Cross,
+            crate::frame::ContactKind::End(_) => Self::End,
         }
     }
 }

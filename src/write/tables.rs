@@ -5,6 +5,7 @@
 //! they are to be sawn. Lists inside a cell are separated by spaces.
 
 use super::figure::figure;
+use super::structure::ContactKindName;
 use crate::frame::{End, Frame};
 use crate::ids::{ContactId, IdVec, RodId};
 use crate::shop::feet;
@@ -126,7 +127,7 @@ pub fn contacts(frame: &Frame) -> Result<Vec<u8>, TableError> {
         let [over, under] = clocks[c];
         vec![
             c.to_string(),
-            "cross".into(),
+            ContactKindName::from(contact.kind).code().into(),
             contact.over.to_string(),
             contact.under.to_string(),
             length(contact.at_over),
@@ -145,7 +146,8 @@ fn clocks(frame: &Frame) -> IdVec<ContactId, [f64; 2]> {
     let mut clocks: IdVec<ContactId, [f64; 2]> = vec![[0.0; 2]; frame.contacts.len()].into();
     for rod in frame.rods.ids() {
         for mark in marks::marks(frame, rod) {
-            clocks[mark.contact][usize::from(!mark.over)] = mark.clock;
+            let over = frame.seen_from(mark.contact, rod).over;
+            clocks[mark.contact][usize::from(!over)] = mark.clock;
         }
     }
     clocks

@@ -46,6 +46,12 @@ fn check_contact(c: &Value, (a0, a1): (Vec3, Vec3), (b0, b1): (Vec3, Vec3), w: f
     let id = &c["id"];
     let (u, v) = ((a1 - a0).normalize(), (b1 - b0).normalize());
     let [s, t] = ["at_over", "at_under"].map(|k| c[k].as_f64().unwrap());
+    if c["kind"] == "end" {
+        let end = |key, a, b| if c[key] == "a" { a } else { b };
+        let apart = end("end_over", a0, a1) - end("end_under", b0, b1);
+        assert!(apart.norm() <= 1e-9 * w, "{id}: ends {} apart", apart.norm());
+        return;
+    }
     let apart = (a0 + u * s) - (b0 + v * t);
     assert!((apart.norm() - w).abs() <= 1e-9 * w, "{id}: gap {}", apart.norm());
     assert!(apart.dot(&u).abs() < 1e-6 && apart.dot(&v).abs() < 1e-6, "{id}: marks");

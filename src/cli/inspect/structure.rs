@@ -3,11 +3,11 @@
 use super::{Args, Page};
 use crate::cli::Failure;
 use crate::cli::terminal::Terminal;
-use crate::frame::{End, Frame};
+use crate::frame::{ContactKind, End, Frame};
 use crate::ids::{ContactId, Id, IdVec, RodId, UnitId};
 use crate::shop::feet::feet;
 use crate::shop::lengths::classes;
-use crate::shop::marks::marks;
+use crate::shop::marks::{Side, marks};
 use crate::surface::Point3;
 use crate::write::structure::Structure;
 use std::fmt::Display;
@@ -93,7 +93,11 @@ fn rod(page: &mut Page, frame: &Frame, id: RodId) {
     }
     page.head("Marks, measured from end A");
     for m in marks(frame, id) {
-        let side = if m.over { "over " } else { "under" };
+        let side = match m.side {
+            Side::Over => "over ",
+            Side::Under => "under",
+            Side::Meets(_) => "meets",
+        };
         page.line(format!(
             "{} {:8.1} mm  {side} {} @ {:.1} mm  {:5.1}°  clock {:5.1}°  {}",
             m.letter,
@@ -110,8 +114,12 @@ fn rod(page: &mut Page, frame: &Frame, id: RodId) {
 fn contact(page: &mut Page, frame: &Frame, id: ContactId) {
     let c = &frame.contacts[id];
     page.head(&format!("Contact {id}"));
-    page.row("over", format!("{} @ {:.1} mm from its end A", c.over, c.at_over));
-    page.row("under", format!("{} @ {:.1} mm from its end A", c.under, c.at_under));
+    let [first, second] = match c.kind {
+        ContactKind::Cross => ["over", "under"],
+        ContactKind::End(_) => ["end of", "meets"],
+    };
+    page.row(first, format!("{} @ {:.1} mm from its end A", c.over, c.at_over));
+    page.row(second, format!("{} @ {:.1} mm from its end A", c.under, c.at_under));
     page.row("angle", format!("{:.1}°", c.angle.to_degrees()));
     page.row("axes apart", format!("{:.6} mm", c.gap));
     page.row("place", place(frame.contact_middle(id)));
@@ -124,9 +132,15 @@ fn unit(page: &mut Page, frame: &Frame, id: UnitId) {
     page.row("rods", format!("{}: {}", unit.rods.len(), list(&unit.rods)));
     page.row("runs", unit.chirality.code());
     page.row("middle", place(unit.center.position));
-    page.head("Contacts, round the unit");
+    page.head("Contacts, round the unit first");
     for &contact in &unit.contacts {
         let c = &frame.contacts[contact];
-        page.line(format!("{contact}  {} over {}  {:.1}°", c.over, c.under, c.angle.to_degrees()));
+        let lies = if c.kind == ContactKind::Cross { "over" } else { "meets" };
+        page.line(format!(
+            "{contact}  {} {lies} {}  {:.1}°",
+            c.over,
+            c.under,
+            c.angle.to_degrees()
+        ));
     }
 }

@@ -16,8 +16,8 @@ pub use plane::{MOST_UNITS, PlaneCanvas, TooManyUnits, most_units};
 pub use sphere::{SphereCanvas, SphereTiles};
 
 use crate::chart::SurfacePoint;
-use crate::ids::{Id, IdVec, TileId};
-use crate::pattern::Line;
+use crate::ids::{Id, IdVec, TileEdgeId, TileId};
+use crate::pattern::{Figure, Guest, Join, Line};
 use crate::surface::Vector3;
 use crate::tiling::Net;
 use nalgebra::Point2;
@@ -40,6 +40,21 @@ pub trait Canvas {
     /// The rods across the edges of a tile, in the order of its edges, in its flat
     /// picture.
     fn lines(&self, tile: TileId) -> Vec<Line>;
+
+    /// All rods of the tile's unit in its flat picture.
+    fn figure(&self, tile: TileId) -> Figure {
+        Figure { outer: self.lines(tile), ..Figure::default() }
+    }
+
+    /// How the rods on both sides of an edge join.
+    fn join(&self, _edge: TileEdgeId) -> Join {
+        Join::Shared
+    }
+
+    /// The rod of the neighbour across a side of a tile, where it comes in to rest.
+    fn guest(&self, _tile: TileId, _side: usize) -> Option<Guest> {
+        None
+    }
 
     /// The place of the surface that belongs to a point of a tile's flat picture;
     /// `None` outside the surface.

@@ -1,7 +1,7 @@
 //! What must hold in every structure: checked before one is written and after one
 //! is read.
 
-use super::{ContactKind, Structure};
+use super::{ContactKindName, Structure};
 use std::collections::HashSet;
 use thiserror::Error;
 
@@ -45,9 +45,9 @@ pub enum StructureFault {
         /// The name of that place.
         expected: String,
     },
-    /// A frame cannot hold a contact of this kind.
-    #[error("{0} is an end contact, which a frame cannot hold yet")]
-    EndContact(String),
+    /// A unit has fewer rods than sides.
+    #[error("{0} has fewer rods than sides")]
+    Sides(String),
     /// A value that JSON cannot hold.
     #[error("it cannot be written as JSON: {0}")]
     Json(String),
@@ -111,7 +111,7 @@ impl Structure {
             if c.over == c.under {
                 return Err(StructureFault::Itself(c.id.clone()));
             }
-            if c.kind == ContactKind::End && (c.end_over.is_none() || c.end_under.is_none()) {
+            if c.kind == ContactKindName::End && (c.end_over.is_none() || c.end_under.is_none()) {
                 return Err(StructureFault::NoEnds(c.id.clone()));
             }
         }
@@ -121,6 +121,9 @@ impl Structure {
     fn check_units(&self, names: &Names) -> Result<(), StructureFault> {
         for u in &self.units {
             finite(&u.id, &u.center)?;
+            if u.rods.len() < u.sides {
+                return Err(StructureFault::Sides(u.id.clone()));
+            }
             u.rods.iter().try_for_each(|r| named(&names.rods, &u.id, r))?;
             u.contacts.iter().try_for_each(|c| named(&names.contacts, &u.id, c))?;
         }

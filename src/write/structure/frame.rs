@@ -1,13 +1,13 @@
 //! Between a frame, which computes, and a structure, which is a file.
 
 use super::{
-    ChiralityName, ContactEntry, ContactKind, DroppedEntry, Report, RodEntry, Structure,
+    ChiralityName, ContactEntry, ContactKindName, DroppedEntry, Report, RodEntry, Structure,
     StructureFault, SupportEntry, UnitEntry,
 };
 use crate::chart::SurfacePoint;
 use crate::frame::axis::Axis;
 use crate::frame::clash::Clash;
-use crate::frame::{Chirality, Contact, Dropped, Frame, Rod, Support, Unit};
+use crate::frame::{Chirality, Contact, ContactKind, Dropped, Frame, Rod, Support, Unit};
 use crate::ids::{ContactId, Id, IdVec, RodId, UnitId};
 use crate::shop::lengths::LengthClasses;
 use crate::surface::{Point3, Vector3};
@@ -21,7 +21,7 @@ impl Structure {
             rod_diameter: frame.diameter,
             ground: frame.ground,
             rods: frame.rods.enumerate().map(|(r, rod)| rod_entry(r, rod, classes)).collect(),
-            contacts: frame.contacts.enumerate().map(|(c, contact)| cross(c, contact)).collect(),
+            contacts: frame.contacts.enumerate().map(contact_entry).collect(),
             units: frame.units.enumerate().map(|(u, unit)| unit_entry(u, unit)).collect(),
             supports: frame.supports.iter().map(support_entry).collect(),
             report: Report {
@@ -45,7 +45,7 @@ impl Structure {
             units: places(self.units.iter().map(|u| u.id.as_str()))?,
         };
         let contacts: IdVec<ContactId, Contact> =
-            self.contacts.iter().map(|c| places.contact(c)).collect::<Result<Vec<_>, _>>()?.into();
+            self.contacts.iter().map(|c| places.contact(c)).collect();
         let along = along_rods(self.rods.len(), &contacts);
         let support = |s: &SupportEntry| Support {
             rod: places.rods[s.rod.as_str()],
@@ -79,14 +79,18 @@ fn rod_entry(r: RodId, rod: &Rod, classes: &LengthClasses) -> RodEntry {
         length: rod.axis.length(),
         class: classes.of(r).name.clone(),
         units: strings(&rod.units),
-        border: rod.units.len() < 2,
+        border: rod.border,
     }
 }
 
-fn cross(c: ContactId, contact: &Contact) -> ContactEntry {
+fn contact_entry((c, contact): (ContactId, &Contact)) -> ContactEntry {
+    let [end_over, end_under] = match contact.kind {
+        ContactKind::Cross => [None; 2],
+        ContactKind::End(ends) => ends.map(|end| Some(end.into())),
+    };
     ContactEntry {
         id: c.to_string(),
-        kind: ContactKind::Cross,
+        kind: contact.kind.into(),
         over: contact.over.to_string(),
         under: contact.under.to_string(),
         at_over: contact.at_over,
@@ -95,15 +99,15 @@ fn cross(c: ContactId, contact: &Contact) -> ContactEntry {
         gap: contact.gap,
         normal: contact.normal.into(),
         unit: contact.unit.to_string(),
-        end_over: None,
-        end_under: None,
+        end_over,
+        end_under,
     }
 }
 
 fn unit_entry(u: UnitId, unit: &Unit) -> UnitEntry {
     UnitEntry {
         id: u.to_string(),
-        sides: unit.rods.len(),
+        sides: unit.sides,
         chirality: match unit.chirality {
             Chirality::Clockwise => ChiralityName::Cw,
             Chirality::CounterClockwise => ChiralityName::Ccw,
@@ -174,11 +178,15 @@ fn along_rods(
 
 /// Names are looked up without a check: [`Structure::check`] found them all.
 impl Places<'_> {
-    fn contact(&self, c: &ContactEntry) -> Result<Contact, StructureFault> {
-        if c.kind == ContactKind::End {
-            return Err(StructureFault::EndContact(c.id.clone()));
-        }
-        Ok(Contact {
+    fn contact(&self, c: &ContactEntry) -> Contact {
+        let kind = match (c.end_over, c.end_under) {
+            (Some(over), Some(under)) if c.kind == ContactKindName::End => {
+                ContactKind::End([over.into(), under.into()])
+            }
+            _ => ContactKind::Cross,
+        };
+        Contact {
+            kind,
             over: self.rods[c.over.as_str()],
             under: self.rods[c.under.as_str()],
             at_over: c.at_over,
@@ -187,13 +195,14 @@ impl Places<'_> {
             gap: c.gap,
             normal: c.normal.into(),
             unit: self.units[c.unit.as_str()],
-        })
+        }
     }
 
     fn rod(&self, r: &RodEntry, along: &[(f64, ContactId)]) -> Rod {
         Rod {
             axis: Axis { a: r.a.into(), b: r.b.into() },
             units: r.units.iter().map(|u| self.units[u.as_str()]).collect(),
+            border: r.border,
             contacts: along.iter().map(|&(_, c)| c).collect(),
         }
     }
@@ -210,6 +219,7 @@ impl Places<'_> {
                 ChiralityName::Cw => Chirality::Clockwise,
                 ChiralityName::Ccw => Chirality::CounterClockwise,
             },
+            sides: u.sides,
             rods: u.rods.iter().map(|r| self.rods[r.as_str()]).collect(),
             contacts: round,
         }

@@ -161,9 +161,10 @@ fn structures_that_do_not_hang_together_are_refused() {
     assert_eq!(fault(&|s| s.rods[2].a = s.rods[2].b), "R003 has the same point at both ends");
     assert_eq!(fault(&|s| s.contacts[1].under = "R002".into()), "C0002 names one rod twice");
     assert_eq!(
-        fault(&|s| s.contacts[0].kind = ContactKind::End),
+        fault(&|s| s.contacts[0].kind = ContactKindName::End),
         "C0001 is an end contact without end_over and end_under"
     );
+    assert_eq!(fault(&|s| s.units[0].sides = 4), "U001 has fewer rods than sides");
     assert_eq!(fault(&|s| s.rods.clear()), "it has no rods");
 }
 
