@@ -3,9 +3,9 @@
 
 use crate::chart::{ChartError, PlanarChart, Uneven};
 use crate::design::{Design, Sphere, Tiles};
-use crate::frame::canvas::{Canvas, MeshTiles, PlaneCanvas, SphereTiles, TooManyUnits};
+use crate::frame::canvas::{Canvas, MeshTiles, PlaneCanvas, PlaneError, SphereTiles};
 use crate::frame::fit::{Fit, FitBy, FitError, fit};
-use crate::frame::fit_turn::{fit_turn, safe_turns};
+use crate::frame::fit_turn::{fit_turn, safe_turns, safe_turns_of_slid};
 use crate::frame::form::{FormError, FormSettings, Formed, form, median_rise};
 use crate::frame::guide::Guide;
 use crate::frame::measure::{Measures, measure};
@@ -99,7 +99,7 @@ fn in_plane(
 ) -> Result<Model, BuildError> {
     begin(Step::Fit);
     let usual = pattern.usual();
-    let shape = Shape { turn: design.turn.unwrap_or(usual.turn), ..usual };
+    let shape = Shape { turn: design.turn.unwrap_or(usual.turn), slide: design.slide };
     let place = |edge| Placement { origin: design.origin.into(), rotation: design.rotate, edge };
     let (canvas, fit) = match design.unit {
         None => {
@@ -124,8 +124,9 @@ fn on_polygons(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, Bu
     let mesh = prepare_polygons(reading, design.up, design.component, design.cut, design.span)?;
     begin(Step::Fit);
     let tiles = MeshTiles::new(&mesh.points, &mesh.faces);
-    let fit = turned_fit(design, |turn| tiles.turned(turn))?;
-    finish(design, &tiles.turned(fit.turn), fit, Guide::Mesh(mesh), notes, begin)
+    let shape = |turn| Shape { turn, slide: design.slide };
+    let fit = turned_fit(design, tiles.alternates(), |turn| tiles.shaped(shape(turn)))?;
+    finish(design, &tiles.shaped(shape(fit.turn)), fit, Guide::Mesh(mesh), notes, begin)
 }
 
 /// A polyhedron on a sphere.
@@ -144,9 +145,10 @@ fn on_sphere(
         return Err(BuildError::CutPastSphere { at, radius });
     }
     let tiles = SphereTiles::new(&form, radius, cut, design.rotate);
-    let fit = turned_fit(design, |turn| tiles.turned(turn))?;
+    let shape = |turn| Shape { turn, slide: design.slide };
+    let fit = turned_fit(design, tiles.alternates(), |turn| tiles.shaped(shape(turn)))?;
     let guide = Guide::Sphere { faces: tiles.faces(), radius, low: tiles.low() };
-    finish(design, &tiles.turned(fit.turn), fit, guide, Vec::new(), begin)
+    finish(design, &tiles.shaped(shape(fit.turn)), fit, guide, Vec::new(), begin)
 }
 
 /// Everything after the tiles are found.
@@ -198,8 +200,20 @@ fn as_given(canvas: &impl Canvas, turn: f64) -> Fit {
 }
 
 /// The turn given, if it is safe for these tiles, or the one that fits.
-fn turned_fit<C: Canvas>(design: &Design, make: impl Fn(f64) -> C) -> Result<Fit, BuildError> {
-    let turns = safe_turns(&make, design.rod);
+fn turned_fit<C: Canvas>(
+    design: &Design,
+    alternates: bool,
+    make: impl Fn(f64) -> C,
+) -> Result<Fit, BuildError> {
+    let slide = design.slide;
+    if slide != 0.0 && !alternates {
+        return Err(BuildError::Alternate { slide });
+    }
+    let turns = if slide == 0.0 {
+        safe_turns(&make, design.rod)
+    } else {
+        safe_turns_of_slid(&make, design.rod).ok_or(BuildError::Slide { slide })?
+    };
     match design.turn {
         None => Ok(fit_turn(make, turns, design.rod)?),
         Some(turn) if (turns[0]..=turns[1]).contains(&turn.abs()) => {
@@ -259,15 +273,27 @@ pub enum BuildError {
          {most:.0} degrees, either way round. Leave --turn out to let it be fitted to the rods"
     )]
     Turn { turn: f64, least: f64, most: f64 },
+    /// Rods that slide where tiles do not alternate.
+    #[error(
+        "slide = {slide}: rods slide where tiles alternate like the fields of a chessboard, with \
+         an even number of them round every corner. That is not so here: leave --slide out"
+    )]
+    Alternate { slide: f64 },
+    /// Rods that slide too little or too far.
+    #[error(
+        "slide = {slide}: with these tiles it leaves no room for the rods. Try another, such as \
+         0.2 or -0.2, or thinner rods (--rod)"
+    )]
+    Slide { slide: f64 },
     /// The chart.
     #[error(transparent)]
     Chart(#[from] ChartError),
     /// The tile edge.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// The number of units.
+    /// The pattern on the chart.
     #[error(transparent)]
-    Units(#[from] TooManyUnits),
+    Plane(#[from] PlaneError),
     /// The frame.
     #[error(transparent)]
     Form(#[from] FormError),

@@ -71,6 +71,7 @@ impl Design {
                 }
                 let usual = format!("{}deg", pattern.turn.usual);
                 file.set("turn", self.given.turn.map_or(usual, |t| t.to_string()));
+                file.set("slide", self.slide);
                 file.set("origin", self.origin.map(mm).to_vec());
                 file.set("rotate", rotate);
                 return;
@@ -81,6 +82,7 @@ impl Design {
                 file.set("rotate", rotate);
             }
         }
+        file.set("slide", self.slide);
         match self.given.turn {
             Some(turn) => file.set("turn", turn.to_string()),
             None => file.note(&format!(

@@ -12,7 +12,7 @@ pub use settings::Settings;
 
 use crate::chart::Method;
 use crate::frame::layer::Layering;
-use crate::pattern::Pattern;
+use crate::pattern::{Pattern, ShapeError};
 use crate::sheets::{Paper, PaperUnits};
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
@@ -123,6 +123,8 @@ pub struct Design {
     pub unit: Option<f64>,
     /// Turn of the rods, if it is not to be fitted.
     pub turn: Option<f64>,
+    /// Slide of the rods, in tile edges.
+    pub slide: f64,
     /// Start of the pattern in the plane.
     pub origin: [f64; 2],
     /// Turn of the pattern.
@@ -162,6 +164,9 @@ pub enum DesignError {
         "no surface given. Name a file, as in `rodwright build samples/igloo.obj`, or set `surface` in the design file"
     )]
     NoSurface,
+    /// Turn and slide do not suit the pattern.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
     /// A setting that would change nothing.
     #[error("{key} does nothing here: {why}. Leave it out")]
     Idle { key: &'static str, why: &'static str },

@@ -1,7 +1,7 @@
 //! Fills in the defaults and checks every setting.
 
 use super::{ALL_PARTS, Design, DesignError, SPHERE, Settings, Sphere, Tiles};
-use crate::pattern::{Pattern, library};
+use crate::pattern::{Pattern, Shape, library};
 use crate::tiling::conway::Notation;
 use crate::units::{Angle, Length};
 use std::path::Path;
@@ -34,7 +34,8 @@ impl Settings {
                 _ => positive("span", self.span)?,
             },
             unit: positive("unit", self.unit)?,
-            turn: turn(&tiles, self.turn)?,
+            turn: self.turn.map(Angle::radians),
+            slide: self.shaped(&tiles)?,
             tiles,
             origin: origin(self.origin.as_deref())?,
             rotate: self.rotate.map_or(0.0, Angle::radians),
@@ -70,6 +71,21 @@ impl Settings {
         })
     }
 
+    /// The slide, given or usual, once it is known to go with the turn. On other tiles than
+    /// a pattern's the surface has a say, and both are checked there.
+    fn shaped(&self, tiles: &Tiles) -> Result<f64, DesignError> {
+        if let Some(slide) = self.slide.filter(|s| s.is_nan() || s.abs() >= MOST_SLIDE) {
+            let problem = format!("a slide is a part of the tile edge, less than {MOST_SLIDE}");
+            return Err(setting("slide", slide, problem));
+        }
+        let Tiles::Pattern(pattern) = tiles else { return Ok(self.slide.unwrap_or(0.0)) };
+        let usual = pattern.usual();
+        let turn = self.turn.map_or(usual.turn, Angle::radians);
+        let slide = self.slide.unwrap_or(usual.slide);
+        pattern.check(Shape { turn, slide })?;
+        Ok(slide)
+    }
+
     /// Refuses settings that say nothing about what the units are made on.
     fn check_fit_for(&self, tiles: &Tiles) -> Result<(), DesignError> {
         let unit = self.unit.is_some().then_some("unit");
@@ -100,6 +116,8 @@ impl Settings {
     }
 }
 
+/// Rods that slide so far, or farther, leave the tile edge.
+const MOST_SLIDE: f64 = 0.5;
 /// Diameter of a sphere when none is given, mm: it fits a table.
 const DEFAULT_SPHERE: f64 = 600.0;
 /// The least warp; its inverse is the greatest. Beyond, units on one side are ten times
@@ -137,22 +155,6 @@ fn pattern(name: Option<&str>) -> Result<&'static Pattern, DesignError> {
         );
         setting("pattern", name, problem)
     })
-}
-
-/// The turn given, or that of the pattern. On other tiles the surface has a say, and
-/// bounds are checked there.
-fn turn(tiles: &Tiles, angle: Option<Angle>) -> Result<Option<f64>, DesignError> {
-    let Tiles::Pattern(pattern) = tiles else { return Ok(angle.map(Angle::radians)) };
-    let Some(angle) = angle else { return Ok(Some(pattern.usual().turn)) };
-    let [least, most] = pattern.turn.safe;
-    if (least..=most).contains(&angle.degrees().abs()) {
-        return Ok(Some(angle.radians()));
-    }
-    let problem = format!(
-        "the pattern {} holds together between {least} and {most} degrees, either way round",
-        pattern.name
-    );
-    Err(setting("turn", angle, problem))
 }
 
 fn origin(lengths: Option<&[Length]>) -> Result<[f64; 2], DesignError> {

@@ -57,6 +57,11 @@ pub struct Settings {
     #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
     pub turn: Option<Angle>,
 
+    /// Slide of the rods along the tile edges, as part of an edge, to one side and the other
+    /// in turn [default: by pattern]
+    #[arg(long, value_name = "PART", allow_negative_numbers = true)]
+    pub slide: Option<f64>,
+
     /// Where the pattern starts, from the middle of the flattened surface [default: 0,0]
     #[arg(
         long,
@@ -135,6 +140,7 @@ impl Settings {
             warp: self.warp.or(other.warp),
             unit: self.unit.or(other.unit),
             turn: self.turn.or(other.turn),
+            slide: self.slide.or(other.slide),
             origin: self.origin.or(other.origin),
             rotate: self.rotate.or(other.rotate),
             overhang: self.overhang.or(other.overhang),

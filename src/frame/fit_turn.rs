@@ -32,12 +32,7 @@ const BISECTIONS: usize = 12;
 pub fn safe_turns<C: Canvas>(make: impl Fn(f64) -> C, diameter: f64) -> [f64; 2] {
     let mut least = USUAL_LEAST;
     let mut most = corner_limit(make(least).net());
-    let share = |turn: f64, roomy: &dyn Fn(&C, TileId) -> bool| {
-        let canvas = make(turn);
-        let tiles: Vec<TileId> = canvas.net().tiles.ids().filter(|&t| canvas.holds(t)).collect();
-        let count = tiles.iter().filter(|&&t| roomy(&canvas, t)).count();
-        count as f64 / tiles.len().max(1) as f64
-    };
+    let share = |turn: f64, roomy: &dyn Fn(&C, TileId) -> bool| share(&make(turn), roomy);
     let within = |canvas: &C, tile: TileId| has_room(&canvas.lines(tile));
     while most > least + STEP && share(most, &within) < MOST_TILES {
         most -= STEP;
@@ -47,6 +42,35 @@ pub fn safe_turns<C: Canvas>(make: impl Fn(f64) -> C, diameter: f64) -> [f64; 2]
         least -= STEP;
     }
     [least, most]
+}
+
+/// The same for rods that slide along the edges: turns from none on, up to where the
+/// holes of every second unit close or rods meet round the corners. `None` where there is
+/// no room even without a turn.
+pub fn safe_turns_of_slid<C: Canvas>(make: impl Fn(f64) -> C, diameter: f64) -> Option<[f64; 2]> {
+    let roomy = |canvas: &C, tile: TileId| {
+        has_room(&canvas.lines(tile)) && shortest_side(canvas, tile) >= ROOM * diameter
+    };
+    let safe = |turn: f64| share(&make(turn), &roomy) >= MOST_TILES;
+    if !safe(0.0) {
+        return None;
+    }
+    let limit = corner_limit(make(0.0).net());
+    let mut most = 0.0;
+    while most + STEP < limit && safe(most + STEP) {
+        most += STEP;
+    }
+    Some([0.0, most])
+}
+
+/// Sides of a unit of slid rods, in diameters: room for the rod that passes.
+const ROOM: f64 = 1.5;
+
+/// The part of the tiles of a canvas for which something holds.
+fn share<C: Canvas>(canvas: &C, holds: &dyn Fn(&C, TileId) -> bool) -> f64 {
+    let tiles: Vec<TileId> = canvas.net().tiles.ids().filter(|&t| canvas.holds(t)).collect();
+    let count = tiles.iter().filter(|&&t| holds(canvas, t)).count();
+    count as f64 / tiles.len().max(1) as f64
 }
 
 /// The least turn for tiles of any size, radians: 8°.
@@ -148,6 +172,7 @@ mod tests {
     use super::*;
     use crate::frame::canvas::{MeshTiles, SphereTiles};
     use crate::ids::{Id, IdVec, VertexId};
+    use crate::pattern::Shape;
     use crate::tiling::conway::Notation;
     use crate::tiling::midsphere::midsphere;
 
@@ -155,8 +180,8 @@ mod tests {
         let notation: Notation = "aI/2".parse().expect("a notation");
         let form = midsphere(&notation.polyhedron()).expect("round");
         let tiles = SphereTiles::new(&form, 300.0, Some(0.0), 0.0);
-        let turns = safe_turns(|turn| tiles.turned(turn), diameter);
-        fit_turn(|turn| tiles.turned(turn), turns, diameter).expect("units")
+        let turns = safe_turns(|turn| tiles.shaped(Shape { turn, slide: 0.0 }), diameter);
+        fit_turn(|turn| tiles.shaped(Shape { turn, slide: 0.0 }), turns, diameter).expect("units")
     }
 
     /// In regular tiles the limit is that of the corners; skewed ones lower it.
@@ -175,7 +200,7 @@ mod tests {
                 })
                 .collect();
             let tiles = MeshTiles::new(&points, &faces);
-            let make = |turn| tiles.turned(turn);
+            let make = |turn| tiles.shaped(Shape { turn, slide: 0.0 });
             let [_, most] = safe_turns(make, 0.01);
             most.to_degrees()
         };

@@ -33,6 +33,19 @@ pub struct Meeting {
     pub along: [f64; 2],
 }
 
+impl Meeting {
+    /// The side of the tile on whose very edge the two rods across it touch: both tiles see
+    /// that contact.
+    pub fn on_side(&self) -> Option<usize> {
+        match (self.ending, self.passing) {
+            (Member::Guest(i), Member::Outer(j)) | (Member::Outer(j), Member::Guest(i)) => {
+                (i == j && self.along.iter().all(|s| s.abs() < TOUCH)).then_some(i)
+            }
+            _ => None,
+        }
+    }
+}
+
 /// A rod of a neighbour that comes in across an edge.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Guest {

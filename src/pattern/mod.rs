@@ -5,12 +5,18 @@
 //! templates/patterns/ come with the program ([`library`]).
 
 mod changes;
+mod check;
+mod crossing;
 mod file;
+mod layout;
 mod library;
 mod meeting;
 mod unit;
 
+pub use check::ShapeError;
+pub use crossing::{Crossing, inradius};
 pub use file::PatternError;
+pub use layout::{Layout, LayoutError, Place};
 pub use library::library;
 pub use meeting::{Figure, Guest, Meeting, Meetings, Member, Unmet};
 pub use unit::{FlatUnit, Line};
@@ -120,6 +126,12 @@ impl Pattern {
     /// Turn and slide when none are given.
     pub fn usual(&self) -> Shape {
         Shape { turn: self.turn.usual.to_radians(), slide: self.slide.usual }
+    }
+
+    /// Whether its tiles can be told apart by two colours such that neighbours differ: round
+    /// every vertex their number is even.
+    pub fn alternates(&self) -> bool {
+        self.tiling.configurations().all(|around| around.len() % 2 == 0)
     }
 
     /// The pattern of the library with this name.

@@ -89,6 +89,32 @@ impl Net {
         rings
     }
 
+    /// Two colours such that neighbours differ: true for the first tile of each connected
+    /// piece. `None` where there are no such colours.
+    pub fn colours(&self) -> Option<IdVec<TileId, bool>> {
+        let mut colours: IdVec<TileId, Option<bool>> = vec![None; self.tiles.len()].into();
+        for start in self.tiles.ids() {
+            if colours[start].is_some() {
+                continue;
+            }
+            colours[start] = Some(true);
+            let mut queue = vec![start];
+            while let Some(tile) = queue.pop() {
+                for other in self.neighbours(tile) {
+                    match colours[other] {
+                        None => {
+                            colours[other] = colours[tile].map(|c| !c);
+                            queue.push(other);
+                        }
+                        same if same == colours[tile] => return None,
+                        Some(_) => {}
+                    }
+                }
+            }
+        }
+        colours.iter().copied().collect()
+    }
+
     /// The number of tiles round the vertex that has most.
     pub fn greatest_valence(&self) -> usize {
         let mut valences: BTreeMap<usize, usize> = BTreeMap::new();

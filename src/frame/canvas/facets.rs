@@ -12,28 +12,32 @@
 use super::{Canvas, Sizing};
 use crate::chart::SurfacePoint;
 use crate::ids::{Id, IdVec, TileEdgeId, TileId, VertexId};
-use crate::pattern::{FlatUnit, Line};
+use crate::pattern::{FlatUnit, Line, Shape};
 use crate::surface::{Point3, Vector3};
 use crate::tiling::{Net, TileEdge};
 use nalgebra::{Matrix2, Point2, Rotation2, Vector2};
 use std::f64::consts::TAU;
 
-/// The polygons of a mesh, ready to be woven on at any turn.
+/// The polygons of a mesh, ready to be woven on in any shape.
 #[derive(Clone, Debug)]
 pub struct MeshTiles {
     net: Net,
     /// The middles of the edges.
     middles: IdVec<TileEdgeId, Point3>,
+    /// The edges, as their left tiles run through them.
+    alongs: IdVec<TileEdgeId, Vector3>,
+    /// Colours by which rods slide; none where neighbours cannot all differ.
+    even: Option<IdVec<TileId, bool>>,
     frames: IdVec<TileId, Frame>,
     ranks: IdVec<TileId, [f64; 2]>,
     edge: f64,
 }
 
-/// A polygon mesh with the turn of its rods.
+/// A polygon mesh with turn and slide of its rods.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshCanvas<'a> {
     tiles: &'a MeshTiles,
-    turn: f64,
+    shape: Shape,
 }
 
 /// The plane of a tile, and how the tile is stretched in it.
@@ -157,14 +161,21 @@ impl MeshTiles {
             ranks: super::ranks(&net, &centers, &top(&centers)),
             edge: total / net.edges.len().max(1) as f64,
             middles: net.edges.iter().map(|e| middle(ends(e))).collect(),
+            alongs: net.edges.iter().map(ends).map(|[a, b]| b - a).collect(),
+            even: net.colours(),
             net,
             frames,
         }
     }
 
-    /// The tiles with rods turned by `turn` radians.
-    pub fn turned(&self, turn: f64) -> MeshCanvas<'_> {
-        MeshCanvas { tiles: self, turn }
+    /// The tiles with rods of this shape. Where tiles do not alternate, rods do not slide.
+    pub fn shaped(&self, shape: Shape) -> MeshCanvas<'_> {
+        MeshCanvas { tiles: self, shape }
+    }
+
+    /// Whether the tiles can be told apart by two colours, as slid rods need.
+    pub fn alternates(&self) -> bool {
+        self.even.is_some()
     }
 }
 
@@ -196,8 +207,18 @@ impl Canvas for MeshCanvas<'_> {
     fn lines(&self, tile: TileId) -> Vec<Line> {
         let frame = &self.tiles.frames[tile];
         let middle = |&e: &TileEdgeId| frame.flat(self.tiles.middles[e]);
-        let middles: Vec<_> = self.tiles.net.tiles[tile].edges.iter().map(middle).collect();
-        rods(&middles, &frame.stretch, self.turn)
+        let edges = &self.tiles.net.tiles[tile].edges;
+        let middles: Vec<_> = edges.iter().map(middle).collect();
+        let mut lines = rods(&middles, &frame.stretch, self.shape.turn);
+        if let Some(even) = &self.tiles.even {
+            for (line, &e) in lines.iter_mut().zip(edges) {
+                // Clockwise round even tiles; left tiles run counter-clockwise.
+                let sign = if even[self.tiles.net.edges[e].left] { -1.0 } else { 1.0 };
+                let slid = self.tiles.middles[e] + self.tiles.alongs[e] * sign * self.shape.slide;
+                line.at = frame.flat(slid);
+            }
+        }
+        lines
     }
 
     fn place(&self, tile: TileId, p: Point2<f64>) -> Option<SurfacePoint> {
@@ -235,7 +256,7 @@ mod tests {
     fn units_of_a_cube_lie_in_its_faces() {
         let (points, faces) = brick();
         let tiles = MeshTiles::new(&points, &faces);
-        let canvas = tiles.turned(0.3);
+        let canvas = tiles.shaped(Shape { turn: 0.3, slide: 0.0 });
         assert_eq!(canvas.edge(), 1.0);
         for tile in canvas.net().tiles.ids() {
             let unit = FlatUnit::new(&canvas.lines(tile)).expect("a square");
@@ -284,7 +305,7 @@ mod tests {
     fn the_top_face_is_numbered_first_and_the_bottom_last() {
         let (points, faces) = brick();
         let tiles = MeshTiles::new(&points, &faces);
-        let canvas = tiles.turned(0.3);
+        let canvas = tiles.shaped(Shape { turn: 0.3, slide: 0.0 });
         let ring = |face: usize| canvas.rank(TileId::new(face))[0];
         assert_eq!([0, 1, 2, 3, 4, 5].map(ring), [2.0, 0.0, 1.0, 1.0, 1.0, 1.0]);
     }

@@ -12,7 +12,7 @@ mod plane;
 mod sphere;
 
 pub use facets::{MeshCanvas, MeshTiles};
-pub use plane::{MOST_UNITS, PlaneCanvas, TooManyUnits, most_units};
+pub use plane::{MOST_UNITS, PlaneCanvas, PlaneError, TooManyUnits, most_units};
 pub use sphere::{SphereCanvas, SphereTiles};
 
 use crate::chart::SurfacePoint;

@@ -3,10 +3,13 @@
 use super::{Canvas, Sizing};
 use crate::chart::{Chart, SurfacePoint};
 use crate::ids::{TileEdgeId, TileId};
-use crate::pattern::{FlatUnit, Line, Pattern, Shape};
-use crate::tiling::{Net, Placement, Tiling};
+use crate::pattern::{
+    Figure, Guest, Join, Layout, LayoutError, Line, Meeting, Meetings, Member, Pattern, Shape,
+    Stick, UnitKind,
+};
+use crate::tiling::{Net, Placement, Tile, Tiling};
 use nalgebra::{Point2, Rotation2, Vector2};
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::TAU;
 
 /// A tile is tested this much larger than it is, so that the rods at the border
 /// keep a little inside the surface; part of the tile's radius.
@@ -25,6 +28,8 @@ pub const MOST_UNITS: usize = 1_000_000;
 pub struct PlaneCanvas<'a, C> {
     chart: &'a C,
     tiling: Tiling,
+    layout: Layout,
+    kinds: Vec<UnitKind>,
     placement: Placement,
     shape: Shape,
 }
@@ -42,20 +47,31 @@ pub struct TooManyUnits {
     pub about: f64,
 }
 
+/// Why a pattern cannot be laid on a chart.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum PlaneError {
+    /// The tiles are too many.
+    #[error(transparent)]
+    TooMany(#[from] TooManyUnits),
+    /// The rules do not say which unit lies where.
+    #[error(transparent)]
+    Layout(#[from] LayoutError),
+}
+
 impl<'a, C: Chart> PlaneCanvas<'a, C> {
     /// Covers the whole chart with a pattern.
     ///
     /// # Errors
-    /// More tiles than [`MOST_UNITS`].
+    /// [`PlaneError`].
     pub fn new(
         chart: &'a C,
         pattern: &Pattern,
         placement: Placement,
         shape: Shape,
-    ) -> Result<Self, TooManyUnits> {
+    ) -> Result<Self, PlaneError> {
         let about = most_units(chart, placement.edge);
         if about > MOST_UNITS as f64 {
-            return Err(TooManyUnits { edge: placement.edge, about });
+            return Err(TooManyUnits { edge: placement.edge, about }.into());
         }
         let [lo, hi] = chart.bounds();
         let corners = [(lo.x, lo.y), (lo.x, hi.y), (hi.x, lo.y), (hi.x, hi.y)];
@@ -63,26 +79,55 @@ impl<'a, C: Chart> PlaneCanvas<'a, C> {
         let low = corners[1..].iter().fold(corners[0], |m, p| m.inf(p));
         let high = corners[1..].iter().fold(corners[0], |m, p| m.sup(p));
         let tiling = pattern.tiling.patch(low, high);
-        Ok(Self { chart, tiling, placement, shape })
+        let layout = Layout::new(pattern, &tiling)?;
+        Ok(Self { chart, tiling, layout, kinds: pattern.kinds.clone(), placement, shape })
     }
 
-    /// Unit direction of the rod across an edge, from its left tile to its right one.
-    fn direction(&self, edge: TileEdgeId) -> Vector2<f64> {
-        let [from, to] = self.tiling.net.edges[edge].ends.map(|v| self.tiling.vertices[v]);
-        Rotation2::new(self.shape.turn - FRAC_PI_2) * (to - from).normalize()
+    /// The unit on a tile.
+    fn kind(&self, tile: TileId) -> &UnitKind {
+        &self.kinds[self.layout.tiles[tile].kind]
     }
 
-    /// Whether a rod of a tile, from its edge to its farther contact, meets a hole.
-    fn crosses_hole(&self, rods: &[Line], contacts: &[Point2<f64>]) -> bool {
-        let n = rods.len();
+    /// The rod of a tile across one of its edges, outwards.
+    fn line_out(&self, tile: TileId, edge: TileEdgeId) -> Line {
+        let Net { edges, .. } = &self.tiling.net;
+        let [from, to] = edges[edge].ends.map(|v| self.tiling.vertices[v]);
+        // Clockwise round the tile.
+        let along = if edges[edge].left == tile { from - to } else { to - from };
+        let out = Vector2::new(-along.y, along.x);
+        let place = self.layout.tiles[tile];
+        let crossing =
+            self.kinds[place.kind].crossing(self.layout.joins[edge], self.shape, place.even);
+        let in_plane = |v: Vector2<f64>| along * v.x + out * v.y;
+        Line {
+            at: self.tiling.midpoint(edge) + in_plane(crossing.at().coords),
+            inward: in_plane(crossing.outward()),
+        }
+    }
+
+    /// The inner rods of the unit on a tile.
+    fn inner(&self, tile: TileId) -> Vec<Stick> {
+        let place = self.layout.tiles[tile];
+        let middle = self.tiling.centers[tile];
+        let Tile { edges, .. } = &self.tiling.net.tiles[tile];
+        let first = self.tiling.midpoint(edges[0]) - middle;
+        let turn = first.y.atan2(first.x) - TAU * place.first as f64 / edges.len() as f64;
+        let laid = |p: Point2<f64>| middle + Rotation2::new(turn) * p.coords;
+        self.kinds[place.kind].inner_rods().map(|stick| stick.map(laid)).collect()
+    }
+
+    /// Whether a rod of a tile, from its edge to its last contact, meets a hole.
+    fn crosses_hole(&self, figure: &Figure, meetings: &Meetings) -> bool {
         let half_width = HOLE_MARGIN * self.placement.edge;
-        (0..n).any(|i| {
-            let from = rods[i].at;
-            let ends = [contacts[i], contacts[(i + n - 1) % n]].map(|c| (c, (c - from).norm()));
-            let (far, _) = if ends[0].1 > ends[1].1 { ends[0] } else { ends[1] };
-            let [a, b] = [from, far].map(|p| self.placement.apply(p));
+        let crosses = |from: Point2<f64>, to: Point2<f64>| {
+            let [a, b] = [from, to].map(|p| self.placement.apply(p));
             self.chart.crosses_hole(a, b, half_width)
-        })
+        };
+        let contact = |m: &Meeting| match m.ending {
+            Member::Outer(i) => crosses(figure.outer[i].at, m.at),
+            _ => false,
+        };
+        meetings.all.iter().any(contact) || figure.inner.iter().any(|&[a, b]| crosses(a, b))
     }
 
     fn lift(&self, p: Point2<f64>) -> Option<SurfacePoint> {
@@ -106,17 +151,16 @@ impl<C: Chart> Canvas for PlaneCanvas<'_, C> {
     /// Whether every point of the tile that the weaving will ask for is in the chart.
     fn holds(&self, tile: TileId) -> bool {
         let center = self.tiling.centers[tile];
-        let lines = self.lines(tile);
+        let figure = self.figure(tile);
+        let Ok(meetings) = figure.meetings(&[]) else { return false };
+        let contacts: Vec<Point2<f64>> = meetings.all.iter().map(|m| m.at).collect();
         let grown = |p: Point2<f64>| p + (p - center) * MARGIN;
         let corners = self.tiling.net.tiles[tile].corners.iter().map(|&v| self.tiling.vertices[v]);
-        let Some(unit) = FlatUnit::new(&lines) else { return false };
-        let contacts = unit.contacts.clone();
         let mut points = std::iter::once(center)
             .chain(corners.map(grown))
-            .chain(lines.iter().map(|l| grown(l.at)))
-            .chain(unit.middles)
-            .chain(unit.contacts);
-        points.all(|p| self.lift(p).is_some()) && !self.crosses_hole(&lines, &contacts)
+            .chain(figure.outer.iter().map(|l| grown(l.at)))
+            .chain(contacts.iter().copied());
+        points.all(|p| self.lift(p).is_some()) && !self.crosses_hole(&figure, &meetings)
     }
 
     fn rank(&self, tile: TileId) -> [f64; 2] {
@@ -132,11 +176,27 @@ impl<C: Chart> Canvas for PlaneCanvas<'_, C> {
 
     fn lines(&self, tile: TileId) -> Vec<Line> {
         let line = |&e: &TileEdgeId| {
-            let outward = self.direction(e);
-            let inward = if self.tiling.net.edges[e].left == tile { -outward } else { outward };
-            Line { at: self.tiling.midpoint(e), inward }
+            let Line { at, inward } = self.line_out(tile, e);
+            Line { at, inward: -inward }
         };
         self.tiling.net.tiles[tile].edges.iter().map(line).collect()
+    }
+
+    fn figure(&self, tile: TileId) -> Figure {
+        let outer = self.lines(tile);
+        let stops = self.kind(tile).stop().map_or_else(Vec::new, |stop| vec![stop; outer.len()]);
+        Figure { outer, stops, inner: self.inner(tile) }
+    }
+
+    fn join(&self, edge: TileEdgeId) -> Join {
+        self.layout.joins[edge]
+    }
+
+    fn guest(&self, tile: TileId, side: usize) -> Option<Guest> {
+        let edge = self.tiling.net.tiles[tile].edges[side];
+        let Join::Rest { reach } = self.layout.joins[edge] else { return None };
+        let home = self.tiling.net.across(edge, tile)?;
+        Some(Guest { side, line: self.line_out(home, edge), reach })
     }
 
     fn place(&self, _tile: TileId, p: Point2<f64>) -> Option<SurfacePoint> {

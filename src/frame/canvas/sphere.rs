@@ -8,14 +8,14 @@
 use super::{Canvas, Sizing};
 use crate::chart::SurfacePoint;
 use crate::ids::{IdVec, TileEdgeId, TileId};
-use crate::pattern::Line;
+use crate::pattern::{Line, Shape};
 use crate::surface::Vector3;
 use crate::tiling::Net;
 use crate::tiling::midsphere::{Midscribed, nearest_to_origin};
 use nalgebra::{Point2, Unit, UnitQuaternion, Vector2};
 
 /// A sphere about the origin, tiled by a polyhedron whose edges touch it, ready to be
-/// woven on at any turn. Lengths in mm.
+/// woven on in any shape. Lengths in mm.
 #[derive(Clone, Debug)]
 pub struct SphereTiles {
     net: Net,
@@ -23,6 +23,8 @@ pub struct SphereTiles {
     corners: Vec<Vector3>,
     /// Where the edges touch the sphere of radius one.
     touching: IdVec<TileEdgeId, Touch>,
+    /// Colours by which rods slide; none where neighbours cannot all differ.
+    even: Option<IdVec<TileId, bool>>,
     frames: IdVec<TileId, Frame>,
     ranks: IdVec<TileId, [f64; 2]>,
     radius: f64,
@@ -31,11 +33,11 @@ pub struct SphereTiles {
     edge: f64,
 }
 
-/// A tiled sphere with the turn of its rods.
+/// A tiled sphere with turn and slide of its rods.
 #[derive(Clone, Copy, Debug)]
 pub struct SphereCanvas<'a> {
     tiles: &'a SphereTiles,
-    turn: f64,
+    shape: Shape,
 }
 
 /// Where an edge touches the sphere, and its direction as its left tile runs through it.
@@ -43,6 +45,17 @@ pub struct SphereCanvas<'a> {
 struct Touch {
     at: Vector3,
     along: Vector3,
+    /// Length of the edge, as an angle.
+    arc: f64,
+}
+
+impl Touch {
+    /// The place that lies this part of the edge farther along it.
+    fn slid(&self, part: f64) -> Self {
+        let (sin, cos) = (part * self.arc).sin_cos();
+        let (at, along) = (self.at * cos + self.along * sin, self.along * cos - self.at * sin);
+        Self { at, along, arc: self.arc }
+    }
 }
 
 /// The flat picture of a tile: its axis and two directions across it.
@@ -88,7 +101,8 @@ impl SphereTiles {
         let corners: Vec<Vector3> = vertices.iter().map(|v| v.normalize()).collect();
         let touch = |ends: [usize; 2]| {
             let [a, b] = ends.map(|v| vertices[v]);
-            Touch { at: nearest_to_origin(&a, &b).normalize(), along: (b - a).normalize() }
+            let at = nearest_to_origin(&a, &b).normalize();
+            Touch { at, along: (b - a).normalize(), arc: a.angle(&b) }
         };
         let touching: IdVec<TileEdgeId, Touch> =
             form.net.edges.iter().map(|e| touch(e.ends)).collect();
@@ -99,6 +113,7 @@ impl SphereTiles {
         Self {
             ranks: super::ranks(&form.net, &axes, &Vector3::z()),
             frames: axes.into_iter().map(Frame::new).collect(),
+            even: form.net.colours(),
             net: form.net.clone(),
             corners,
             touching,
@@ -108,9 +123,14 @@ impl SphereTiles {
         }
     }
 
-    /// The tiles with rods turned by `turn` radians.
-    pub fn turned(&self, turn: f64) -> SphereCanvas<'_> {
-        SphereCanvas { tiles: self, turn }
+    /// The tiles with rods of this shape. Where tiles do not alternate, rods do not slide.
+    pub fn shaped(&self, shape: Shape) -> SphereCanvas<'_> {
+        SphereCanvas { tiles: self, shape }
+    }
+
+    /// Whether the tiles can be told apart by two colours, as slid rods need.
+    pub fn alternates(&self) -> bool {
+        self.even.is_some()
     }
 
     /// Whether a tile lies above the cut.
@@ -156,10 +176,18 @@ impl Canvas for SphereCanvas<'_> {
     fn lines(&self, tile: TileId) -> Vec<Line> {
         let frame = &self.tiles.frames[tile];
         let line = |&e: &TileEdgeId| {
-            let Touch { at, along } = self.tiles.touching[e];
-            let along = if self.tiles.net.edges[e].left == tile { along } else { -along };
+            let left = self.tiles.net.edges[e].left;
+            // Along the edge clockwise round even tiles, and the left tile runs through it
+            // counter-clockwise.
+            let slide = match &self.tiles.even {
+                Some(even) if even[left] => -self.shape.slide,
+                Some(_) => self.shape.slide,
+                None => 0.0,
+            };
+            let Touch { at, along, .. } = self.tiles.touching[e].slid(slide);
+            let along = if left == tile { along } else { -along };
             let up = Unit::new_unchecked(at);
-            let inward = UnitQuaternion::from_axis_angle(&up, self.turn) * at.cross(&along);
+            let inward = UnitQuaternion::from_axis_angle(&up, self.shape.turn) * at.cross(&along);
             Line { at: frame.flat(&at), inward: frame.flat_direction(&at, &inward) }
         };
         self.tiles.net.tiles[tile].edges.iter().map(line).collect()
@@ -207,7 +235,7 @@ mod tests {
         for notation in ["I", "aI/2", "dkI", "sC"] {
             let tiles = tiles(notation, None);
             for turn in [-0.2f64, 0.35] {
-                let canvas = tiles.turned(turn);
+                let canvas = tiles.shaped(Shape { turn, slide: 0.0 });
                 for tile in canvas.net().tiles.ids() {
                     let lines = canvas.lines(tile);
                     let unit = FlatUnit::new(&lines).expect("a unit");
@@ -228,7 +256,7 @@ mod tests {
     #[test]
     fn both_tiles_of_an_edge_see_one_rod() {
         let tiles = tiles("aI", None);
-        let canvas = tiles.turned(0.3);
+        let canvas = tiles.shaped(Shape { turn: 0.3, slide: 0.0 });
         for (e, edge) in canvas.net().edges.enumerate() {
             let plane = |tile: TileId| {
                 let side = canvas.net().tiles[tile].edges.iter().position(|&x| x == e)?;
@@ -258,7 +286,7 @@ mod tests {
     #[test]
     fn numbering_starts_at_the_top() {
         let tiles = tiles("dI/2", None);
-        let canvas = tiles.turned(0.3);
+        let canvas = tiles.shaped(Shape { turn: 0.3, slide: 0.0 });
         let first = canvas.net().tiles.ids().min_by(|&a, &b| {
             let (p, q) = (canvas.rank(a), canvas.rank(b));
             p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]))

@@ -115,6 +115,11 @@ fn add_contacts(
     for (unit, placed) in placed.enumerate() {
         let tile = placed.tile;
         for (meeting, &on) in placed.meetings.all.iter().zip(&placed.on) {
+            if let Some(side) = meeting.on_side()
+                && net.edges[net.tiles[tile].edges[side]].left != tile
+            {
+                continue;
+            }
             let rod = |member| match member {
                 Member::Outer(i) => Some(weave.units[unit].rods[i]),
                 Member::Inner(i) => Some(weave.units[unit].rods[placed.lines.len() + i]),

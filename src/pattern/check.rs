@@ -1,0 +1,214 @@
+//! Whether turn and slide suit a pattern: within what is safe, and such that rods that
+//! should join do.
+
+use super::crossing::inradius;
+use super::{Figure, Guest, Join, Line, Pattern, Rule, Shape, UnitKind, Unmet};
+use nalgebra::{Point2, Vector2};
+use std::f64::consts::TAU;
+use thiserror::Error;
+
+/// What is wrong with a turn or a slide. Angles in degrees.
+#[derive(Error, Clone, PartialEq, Debug)]
+pub enum ShapeError {
+    /// The turn is not safe.
+    #[error(
+        "turn = {turn:.4}deg: the pattern {pattern} holds together between {} and {} degrees, \
+         either way round", safe[0], safe[1]
+    )]
+    Turn { pattern: String, turn: f64, safe: [f64; 2] },
+    /// The slide is not safe.
+    #[error(
+        "slide = {slide}: the pattern {pattern} holds together between {} and {} tile edges",
+        safe[0], safe[1]
+    )]
+    Slide { pattern: String, slide: f64, safe: [f64; 2] },
+    /// Turn and slide are each safe, but not together.
+    #[error(
+        "turn = {turn:.4}deg with slide = {slide}: the mirror image of the pattern {pattern} has \
+         both of the other sign; change the sign of one of them"
+    )]
+    Signs { pattern: String, turn: f64, slide: f64 },
+    /// A figure that the pattern does not have.
+    #[error("{key} does nothing in the pattern {pattern}: {why}. Leave it out")]
+    Fixed { key: &'static str, pattern: String, why: &'static str },
+    /// Shared rods slide only where tiles alternate.
+    #[error(
+        "slide = {slide}: shared rods slide where tiles alternate like the fields of a chessboard; \
+         round some corner of {tiling} there is an odd number of them. Leave --slide out"
+    )]
+    Alternate { slide: f64, tiling: &'static str },
+    /// Ends that should meet do not.
+    #[error(
+        "slide = {slide}: the ends of the rods of {units} would be {apart:.3} tile edges apart. \
+         They meet at slide 0, or where one of the two units is the mirror image of the other"
+    )]
+    Ends { slide: f64, units: String, apart: f64 },
+    /// Rods that should be one are two.
+    #[error(
+        "{units} share a rod, but the two draw it differently: {apart:.3} tile edges and {angle:.1} \
+         degrees apart"
+    )]
+    Shared { units: String, apart: f64, angle: f64 },
+    /// A rod that should rest on a neighbour's misses it.
+    #[error(
+        "turn = {turn:.4}deg with slide = {slide}: a rod that goes across the edge from {from} into \
+         {into} meets too few of its rods to rest on one{}", instead_of(*.instead)
+    )]
+    Rest { turn: f64, slide: f64, from: String, into: String, instead: Option<f64> },
+    /// The outer rods make no circuit.
+    #[error("turn = {turn:.4}deg with slide = {slide}: the rods of {unit} run round in no circuit")]
+    Circuit { turn: f64, slide: f64, unit: String },
+}
+
+fn instead_of(slide: Option<f64>) -> String {
+    match slide {
+        Some(slide) => format!(". With --slide {slide:.2} it would"),
+        None => ". No slide would help; try another turn (--turn)".into(),
+    }
+}
+
+/// Points and lines that should be the same are no farther apart, tile edges: what a
+/// person writes in six digits.
+const SAME: f64 = 1e-5;
+
+/// Steps and bounds in which another slide is looked for, tile edges.
+const SLIDE_STEP: f64 = 0.01;
+const MOST_SLIDE: f64 = 0.45;
+
+impl Pattern {
+    /// Whether rods of this shape join as the rules say, and keep clear of each other.
+    ///
+    /// # Errors
+    /// [`ShapeError`].
+    pub fn check(&self, shape: Shape) -> Result<(), ShapeError> {
+        self.check_range(shape)?;
+        let Shape { turn, slide } = shape;
+        let shared = self.rules.iter().any(|r| r.join == Join::Shared);
+        if slide != 0.0 && shared && !self.alternates() {
+            return Err(ShapeError::Alternate { slide, tiling: self.tiling.name });
+        }
+        for rule in &self.rules {
+            match self.check_rule(rule, shape) {
+                Err(ShapeError::Rest { from, into, .. }) => {
+                    let turn = turn.to_degrees();
+                    let instead = self.other_slide(shape);
+                    return Err(ShapeError::Rest { turn, slide, from, into, instead });
+                }
+                done => done?,
+            }
+        }
+        Ok(())
+    }
+
+    fn check_range(&self, shape: Shape) -> Result<(), ShapeError> {
+        let (turn, slide) = (shape.turn.to_degrees(), shape.slide);
+        let within = |[least, most]: [f64; 2], x: f64| least - SAME <= x && x <= most + SAME;
+        let both = |sign: f64| {
+            within(self.turn.safe, sign * turn) && within(self.slide.safe, sign * slide)
+        };
+        if both(1.0) || both(-1.0) {
+            return Ok(());
+        }
+        let pattern = self.name.clone();
+        if !within(self.turn.safe, turn) && !within(self.turn.safe, -turn) {
+            let safe = self.turn.safe;
+            return Err(ShapeError::Turn { pattern, turn, safe });
+        }
+        if !within(self.slide.safe, slide) && !within(self.slide.safe, -slide) {
+            let safe = self.slide.safe;
+            return Err(ShapeError::Slide { pattern, slide, safe });
+        }
+        Err(ShapeError::Signs { pattern, turn, slide })
+    }
+
+    /// The slide nearest to the one given at which all rods that rest do.
+    fn other_slide(&self, shape: Shape) -> Option<f64> {
+        let fits = |slide: f64| {
+            let shape = Shape { slide, ..shape };
+            slide.abs() <= MOST_SLIDE
+                && self.rules.iter().all(|r| self.check_rule(r, shape).is_ok())
+        };
+        let steps = (2.0 * MOST_SLIDE / SLIDE_STEP) as i32;
+        let near = (shape.slide / SLIDE_STEP).round() as i32;
+        let candidates = (0..=steps).flat_map(|k| [near + k, near - k]);
+        candidates.map(|k| f64::from(k) * SLIDE_STEP).find(|&slide| fits(slide))
+    }
+
+    /// Lays the two units of a rule side by side and joins their rods.
+    fn check_rule(&self, rule: &Rule, shape: Shape) -> Result<(), ShapeError> {
+        let [a, b] = rule.slots.map(|slot| &self.kinds[slot.kind]);
+        let units = format!("{} and {}", a.name, b.name);
+        let [ours, theirs] =
+            [(a, true), (b, false)].map(|(kind, even)| kind.crossing(rule.join, shape, even));
+        // The frame of their edge is ours turned half round.
+        let apart = (ours.at() + theirs.at().coords).coords.norm();
+        match rule.join {
+            Join::Shared => {
+                let angle = (ours.turn - theirs.turn).abs();
+                if apart > SAME || angle > SAME {
+                    let angle = angle.to_degrees();
+                    return Err(ShapeError::Shared { units, apart, angle });
+                }
+            }
+            Join::End if apart > SAME => {
+                return Err(ShapeError::Ends { slide: shape.slide, units, apart });
+            }
+            Join::End => {}
+            Join::Rest { reach } => {
+                for (from, into) in [(a, b), (b, a)] {
+                    rests(from, into, reach, shape)?;
+                }
+            }
+        }
+        for kind in [a, b] {
+            kind.figure(rule.join, shape, true).meetings(&[]).map_err(|_| ShapeError::Circuit {
+                turn: shape.turn.to_degrees(),
+                slide: shape.slide,
+                unit: kind.name.clone(),
+            })?;
+        }
+        Ok(())
+    }
+}
+
+/// Whether a rod that goes from one unit into another comes to rest there.
+fn rests(from: &UnitKind, into: &UnitKind, reach: usize, shape: Shape) -> Result<(), ShapeError> {
+    let join = Join::Rest { reach };
+    let home = from.figure(join, shape, true).outer[0];
+    // Seen from the other unit, whose middle lies beyond our first edge.
+    let middle = Vector2::new(inradius(from.sides) + inradius(into.sides), 0.0);
+    let line = Line { at: (middle - home.at.coords).into(), inward: home.inward };
+    let guest = Guest { side: 0, line, reach };
+    match into.figure(join, shape, true).meetings(&[guest]) {
+        Err(Unmet::Guest(_)) => Err(ShapeError::Rest {
+            turn: shape.turn.to_degrees(),
+            slide: shape.slide,
+            from: from.name.clone(),
+            into: into.name.clone(),
+            instead: None,
+        }),
+        _ => Ok(()),
+    }
+}
+
+impl UnitKind {
+    /// The unit on a regular tile with its middle at the origin and the x axis through the
+    /// middle of its first edge, all rods joined alike.
+    pub fn figure(&self, join: Join, shape: Shape, even: bool) -> Figure {
+        let crossing = self.crossing(join, shape, even);
+        let r = inradius(self.sides);
+        let line = |side: usize| {
+            let (sin, cos) = (TAU * side as f64 / self.sides as f64).sin_cos();
+            // Out of the tile, and clockwise along the edge.
+            let (out, along) = (Vector2::new(cos, sin), Vector2::new(sin, -cos));
+            let place = |v: Vector2<f64>| along * v.x + out * v.y;
+            Line {
+                at: Point2::from(out * r + place(crossing.at().coords)),
+                inward: -place(crossing.outward()),
+            }
+        };
+        let outer: Vec<Line> = (0..self.sides).map(line).collect();
+        let stops = self.stop().map_or_else(Vec::new, |stop| vec![stop; self.sides]);
+        Figure { outer, stops, inner: self.inner_rods().collect() }
+    }
+}
