@@ -13,7 +13,7 @@ mod uniform;
 pub use lattice::{DIRECTIONS, Lattice};
 pub use net::{Net, Tile, TileEdge};
 pub use polyhedron::{Polyhedron, Seed};
-pub use uniform::{UNIFORM, UniformTiling};
+pub use uniform::{Across, Cell, CellTile, Spot, UNIFORM, UniformTiling};
 
 use crate::ids::{IdVec, TileEdgeId, TileId};
 use nalgebra::{Point2, Rotation2, Vector2};

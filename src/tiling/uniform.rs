@@ -12,10 +12,12 @@
 //! way. A corner of a regular polygon is at least √3/2 from such a side, so that this
 //! segment is at least √3 long.
 
+mod cell;
 #[cfg(test)]
 mod symmetry;
 mod table;
 
+pub use cell::{Across, Cell, CellTile, Spot};
 pub use table::UNIFORM;
 
 use super::lattice::{DIRECTIONS, Lattice};
