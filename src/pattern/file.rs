@@ -1,11 +1,11 @@
-//! Reading a pattern file: `units`, `rules`, and the figures that go with them.
+//! What is written in a pattern file: `units`, `rules`, and the figures that go with them.
 
-use super::{Join, Parameter, Pattern, Rule, Slot, Stick, UnitKind};
-use crate::tiling::UniformTiling;
+use super::grammar::{ChoiceError, GrammarError};
+use super::{Join, Parameter, Rule, SIDES, Slot, Stick, UnitKind};
 use nalgebra::{Point2, Rotation2};
 use serde::Deserialize;
 use std::f64::consts::TAU;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// What is wrong with a pattern file.
@@ -23,19 +23,25 @@ pub enum PatternError {
     /// A rule that cannot be.
     #[error("rule {rule}, {slots}: {problem}")]
     Rule { rule: usize, slots: String, problem: String },
-    /// Units, rules or figures that do not go together.
-    #[error("{0}")]
-    Whole(String),
+    /// A figure that contradicts itself.
+    #[error("{key}: {problem}")]
+    Figure { key: &'static str, problem: String },
+    /// Rules that make no tiling.
+    #[error(transparent)]
+    Grammar(#[from] GrammarError),
+    /// Rules that do not make the tiling asked for, or several.
+    #[error(transparent)]
+    Tiling(#[from] ChoiceError),
 }
 
 /// The file as it is written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct PatternFile {
-    name: Option<String>,
-    summary: Option<String>,
-    source: Option<String>,
-    tiling: Option<String>,
+pub(super) struct PatternFile {
+    pub name: Option<String>,
+    pub summary: Option<String>,
+    pub source: Option<String>,
+    pub tiling: Option<String>,
     turn: Option<ParameterEntry>,
     slide: Option<ParameterEntry>,
     units: Vec<UnitEntry>,
@@ -79,78 +85,42 @@ enum JoinEntry {
     Rest,
 }
 
-/// Units have 3 to 12 rods.
-pub const SIDES: std::ops::RangeInclusive<usize> = 3..=12;
-
 /// Coordinates of rods that should be turned copies of each other agree to this, tile
 /// edges: what a person writes in six digits.
 const SAME: f64 = 1e-5;
 
-/// The turn of patterns that name none, degrees.
-const USUAL_TURN: f64 = 20.0;
-
-impl Pattern {
-    /// Reads a pattern file.
-    ///
-    /// # Errors
-    /// [`PatternError`] with what is wrong in it, and where.
-    pub fn read(file: &Path) -> Result<Self, PatternError> {
-        let unreadable = |source| PatternError::Unreadable { file: file.to_path_buf(), source };
-        let text = std::fs::read_to_string(file).map_err(unreadable)?;
-        let stem = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-        Self::parse(&text, stem.trim_end_matches(".pattern"))
-    }
-
-    /// The pattern of a file's text; `name` is for those that name none themselves.
-    ///
-    /// # Errors
-    /// [`PatternError`] with what is wrong in it, and where.
-    pub fn parse(text: &str, name: &str) -> Result<Self, PatternError> {
-        let file: PatternFile = toml::from_str(text).map_err(Box::new)?;
-        let kinds = file.units.iter().map(kind).collect::<Result<Vec<_>, _>>()?;
+impl PatternFile {
+    /// Its units.
+    pub fn kinds(&self) -> Result<Vec<UnitKind>, PatternError> {
+        let kinds = self.units.iter().map(kind).collect::<Result<Vec<_>, _>>()?;
         distinct(&kinds)?;
-        let rule = |(i, entry)| rule(i, entry, &kinds);
-        let rules = file.rules.iter().enumerate().map(rule).collect::<Result<Vec<_>, _>>()?;
-        let tiling = tiling(file.tiling.as_deref())?;
-        let figure = |entry: Option<ParameterEntry>, usual: Parameter, key| match entry {
-            Some(ParameterEntry { usual, safe }) => checked(key, Parameter { usual, safe }),
-            None => Ok(usual),
-        };
-        let still = Parameter { usual: 0.0, safe: [0.0; 2] };
-        Ok(Self {
-            name: file.name.unwrap_or_else(|| name.to_owned()),
-            summary: file.summary.unwrap_or_default(),
-            source: file.source.unwrap_or_default(),
-            turn: figure(file.turn, usual_turn(tiling), "turn")?,
-            slide: figure(file.slide, still, "slide")?,
-            tiling,
-            kinds,
-            rules,
-        })
+        Ok(kinds)
+    }
+
+    /// Its rules about these units.
+    pub fn rules(&self, kinds: &[UnitKind]) -> Result<Vec<Rule>, PatternError> {
+        self.rules.iter().enumerate().map(|(i, entry)| rule(i, entry, kinds)).collect()
+    }
+
+    /// Its turn and its slide, where it names them.
+    pub fn figures(&self) -> Result<[Option<Parameter>; 2], PatternError> {
+        Ok([checked("turn", self.turn)?, checked("slide", self.slide)?])
     }
 }
 
-/// Turns that are safe on a tiling, as far as its vertices tell: the more tiles there are
-/// round one, the sooner rods meet there.
-fn usual_turn(tiling: &UniformTiling) -> Parameter {
-    let triangles = tiling.polygons().contains(&3);
-    let most = match tiling.configurations().map(|c| c.len()).max() {
-        Some(0..=3) => 44.0,
-        Some(4) if !triangles => 36.0,
-        _ => 24.0,
-    };
-    Parameter { usual: USUAL_TURN, safe: [8.0, most] }
-}
-
-fn checked(key: &str, figure: Parameter) -> Result<Parameter, PatternError> {
-    let Parameter { usual, safe: [least, most] } = figure;
-    if least <= usual && usual <= most {
-        return Ok(figure);
+fn checked(
+    key: &'static str,
+    entry: Option<ParameterEntry>,
+) -> Result<Option<Parameter>, PatternError> {
+    let Some(ParameterEntry { usual, safe }) = entry else { return Ok(None) };
+    let [least, most] = safe;
+    if least <= usual && usual <= most && least.is_finite() && most.is_finite() {
+        return Ok(Some(Parameter { usual, safe }));
     }
-    Err(PatternError::Whole(format!(
-        "{key}: the usual value {usual} does not lie between those that are safe, {least} and \
-         {most}"
-    )))
+    let problem = format!(
+        "the usual value {usual} does not lie between those that are safe, {least} and {most}"
+    );
+    Err(PatternError::Figure { key, problem })
 }
 
 fn kind(entry: &UnitEntry) -> Result<UnitKind, PatternError> {
@@ -256,10 +226,4 @@ fn slot(text: &str, kinds: &[UnitKind]) -> Result<Slot, String> {
         number.ok_or_else(|| format!("\"{text}\": the sides of \"{name}\" are 1 to {sides}"))
     };
     Ok(Slot { kind, side: side.map(numbered).transpose()?.map(|n| n - 1) })
-}
-
-fn tiling(name: Option<&str>) -> Result<&'static UniformTiling, PatternError> {
-    let name = name.ok_or_else(|| PatternError::Whole("no tiling is named".into()))?;
-    UniformTiling::named(name)
-        .ok_or_else(|| PatternError::Whole(format!("there is no tiling {name}")))
 }

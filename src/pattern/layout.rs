@@ -1,84 +1,107 @@
-//! Which unit lies on which tile.
-use super::{Join, Pattern};
-use crate::ids::{Id, IdVec, TileEdgeId, TileId};
-use crate::tiling::Tiling;
-use std::collections::VecDeque;
+//! Which unit lies on which tile, and how it is turned.
 
-#[derive(Clone, Debug)]
+mod repeat;
+mod solve;
+
+#[cfg(test)]
+mod tests;
+
+pub(super) use repeat::Repeat;
+
+use super::joints::{Joints, RulesError};
+use super::{Join, Pattern};
+use crate::ids::{IdVec, TileEdgeId, TileId};
+use crate::tiling::Tiling;
+use thiserror::Error;
+
+/// The units on the tiles of a patch. The same tile has the same unit in every patch of
+/// the tiling.
+#[derive(Clone, PartialEq, Debug)]
 pub struct Layout {
+    /// The unit on each tile.
     pub tiles: IdVec<TileId, Place>,
+    /// How the units on the two sides of an edge join; `Shared` where there is but one.
     pub joins: IdVec<TileEdgeId, Join>,
 }
-#[derive(Clone, Copy, Debug)]
+
+/// A unit as it lies on a tile.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Place {
+    /// The unit, as an index of [`Pattern::kinds`].
     pub kind: usize,
+    /// The side of the unit that lies at edge 0 of the tile; the next ones follow
+    /// counter-clockwise.
     pub first: usize,
+    /// Whether the tile has the colour of the one nearest the origin, when tiles side by
+    /// side differ in colour. True everywhere where two colours are not enough, as
+    /// [`Pattern::alternates`] tells.
     pub even: bool,
 }
-#[derive(Debug, Clone, thiserror::Error, PartialEq)]
-#[error("layout")]
-pub struct LayoutError;
+
+/// Why units cannot be laid on tiles.
+#[derive(Error, Clone, PartialEq, Debug)]
+pub enum LayoutError {
+    /// Units and rules do not fit together.
+    #[error(transparent)]
+    Rules(#[from] RulesError),
+    /// Rules that fit round each vertex do not fit further out, whatever is chosen.
+    #[error(
+        "laid out as {tiling} the rules lead to a dead end in {}: no unit of {sides} sides \
+         fits there{}. Add rules, or name other sides",
+        ring_words(*ring),
+        beside_words(beside)
+    )]
+    DeadEnd { tiling: &'static str, sides: usize, ring: usize, beside: Vec<String> },
+    /// No arrangement that repeats was found.
+    #[error(
+        "laid out as {tiling} the rules leave choices that lead to dead ends; no arrangement \
+         was found that repeats. Name the sides that come together, or add rules"
+    )]
+    NoRepeat { tiling: &'static str },
+    /// A tile that is not one of the pattern's tiling.
+    #[error("tile {tile} is not one of the tiling {tiling}")]
+    Foreign { tile: TileId, tiling: &'static str },
+}
+
+fn ring_words(ring: usize) -> String {
+    if ring == 0 { "the middle".into() } else { format!("ring {ring} round the middle") }
+}
+
+fn beside_words(beside: &[String]) -> String {
+    match beside {
+        [] => String::new(),
+        [.., _] => format!(" beside {}", beside.join(" and ")),
+    }
+}
+
 impl Layout {
-    pub fn new(pattern: &Pattern, tiling: &Tiling) -> Result<Self, LayoutError> {
-        let n = tiling.net.tiles.len();
-        let mut tiles: IdVec<TileId, Option<Place>> = vec![None; n].into();
-        let key = |t: TileId| {
-            let c = tiling.centers[t];
-            ((c.coords.norm() * 1e6).round(), c.y.atan2(c.x))
+    /// The units on a patch of the pattern's tiling.
+    ///
+    /// # Errors
+    /// [`LayoutError`] where the rules do not allow it, or the patch is of another tiling.
+    pub fn new(pattern: &Pattern, patch: &Tiling) -> Result<Self, LayoutError> {
+        let joints = Joints::new(&pattern.kinds, &pattern.rules)?;
+        let repeat = Repeat::find(&pattern.kinds, &joints, pattern.tiling)?;
+        let foreign = |tile| LayoutError::Foreign { tile, tiling: pattern.tiling.name };
+        let place = |tile| {
+            let spot = repeat.cell().find(patch, tile).ok_or_else(|| foreign(tile))?;
+            let ((kind, first), even) = repeat.place(spot);
+            Ok(Place { kind, first, even })
         };
-        let Some(start) = tiling.net.tiles.ids().min_by(|&a, &b| {
-            let (p, q) = (key(a), key(b));
-            p.0.total_cmp(&q.0).then(p.1.total_cmp(&q.1))
-        }) else {
-            return Ok(Self { tiles: IdVec::default(), joins: IdVec::default() });
-        };
-        let ok = |a: usize, b: usize| {
-            pattern
-                .rules
-                .iter()
-                .find(|r| {
-                    (r.slots[0].kind == a && r.slots[1].kind == b)
-                        || (r.slots[0].kind == b && r.slots[1].kind == a)
-                })
-                .map(|r| r.join)
-        };
-        let mut queue = VecDeque::from([start]);
-        let pick = |t: TileId, tiles: &IdVec<TileId, Option<Place>>| {
-            let sides = tiling.net.tiles[t].corners.len();
-            (0..pattern.kinds.len()).find(|&k| {
-                pattern.kinds[k].sides == sides
-                    && tiling
-                        .net
-                        .neighbours(t)
-                        .all(|o| tiles[o].is_none_or(|p| ok(k, p.kind).is_some()))
-            })
-        };
-        tiles[start] =
-            Some(Place { kind: pick(start, &tiles).ok_or(LayoutError)?, first: 0, even: true });
-        while let Some(t) = queue.pop_front() {
-            let even = tiles[t].is_some_and(|p| p.even);
-            for o in tiling.net.neighbours(t).collect::<Vec<_>>() {
-                if tiles[o].is_none() {
-                    tiles[o] = Some(Place {
-                        kind: pick(o, &tiles).ok_or(LayoutError)?,
-                        first: 0,
-                        even: !even,
-                    });
-                    queue.push_back(o);
-                }
-            }
-        }
+        let net = &patch.net;
         let tiles: IdVec<TileId, Place> =
-            tiles.iter().map(|p| p.unwrap_or(Place { kind: 0, first: 0, even: true })).collect();
-        let joins = tiling
-            .net
-            .edges
-            .iter()
-            .map(|e| {
-                e.right.and_then(|r| ok(tiles[e.left].kind, tiles[r].kind)).unwrap_or(Join::Shared)
-            })
-            .collect();
-        let _ = TileId::new(0);
+            net.tiles.ids().map(place).collect::<Result<Vec<_>, LayoutError>>()?.into();
+        let slot = |tile: TileId, edge: TileEdgeId| {
+            let at = net.tiles[tile].edges.iter().position(|&e| e == edge)?;
+            Some(joints.slot(tiles[tile].kind, tiles[tile].first + at))
+        };
+        let join = |(id, edge): (TileEdgeId, &crate::tiling::TileEdge)| {
+            let Some(right) = edge.right else { return Ok(Join::Shared) };
+            let joined =
+                slot(edge.left, id).zip(slot(right, id)).and_then(|(a, b)| joints.join(a, b));
+            joined.ok_or_else(|| foreign(edge.left))
+        };
+        let joins = net.edges.enumerate().map(join).collect::<Result<Vec<_>, _>>()?.into();
         Ok(Self { tiles, joins })
     }
 }

@@ -1,21 +1,29 @@
 //! Patterns: which units there are, how they connect, and on which tiling (paper,
 //! section 3).
 //!
-//! A pattern is a small file of units and rules ([`file`]); those under
-//! templates/patterns/ come with the program ([`library`]).
+//! A pattern is a small file of units and rules ([`Draft`]); those under
+//! templates/patterns/ come with the program ([`library`]). Which tilings the rules make
+//! is found by [`grammar`], which unit lies on which tile by [`layout`].
 
 mod changes;
 mod check;
 mod crossing;
+mod draft;
 mod file;
-mod layout;
+pub mod grammar;
+mod joints;
+pub mod layout;
 mod library;
 mod meeting;
+#[cfg(test)]
+mod testing;
 mod unit;
 
 pub use check::ShapeError;
 pub use crossing::{Crossing, inradius};
+pub use draft::Draft;
 pub use file::PatternError;
+pub use joints::{MOST_KINDS, RulesError};
 pub use layout::{Layout, LayoutError, Place};
 pub use library::library;
 pub use meeting::{Figure, Guest, Meeting, Meetings, Member, Unmet};
@@ -76,6 +84,9 @@ pub struct UnitKind {
     pub inner: Vec<Stick>,
 }
 
+/// Units have 3 to 12 rods.
+pub const SIDES: std::ops::RangeInclusive<usize> = 3..=12;
+
 /// A rod in the frame of its unit: tile edges long, the origin in the middle, the x axis
 /// through the middle of the first edge.
 pub type Stick = [Point2<f64>; 2];
@@ -128,10 +139,10 @@ impl Pattern {
         Shape { turn: self.turn.usual.to_radians(), slide: self.slide.usual }
     }
 
-    /// Whether its tiles can be told apart by two colours such that neighbours differ: round
-    /// every vertex their number is even.
+    /// Whether its tiles can be coloured with two colours, so that those side by side
+    /// differ: as many tiles as two colours need lie round every vertex.
     pub fn alternates(&self) -> bool {
-        self.tiling.configurations().all(|around| around.len() % 2 == 0)
+        self.tiling.configurations().all(|c| c.len() % 2 == 0)
     }
 
     /// The pattern of the library with this name.
