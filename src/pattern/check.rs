@@ -28,9 +28,12 @@ pub enum ShapeError {
          both of the other sign; change the sign of one of them"
     )]
     Signs { pattern: String, turn: f64, slide: f64 },
-    /// A figure that the pattern does not have.
-    #[error("{key} does nothing in the pattern {pattern}: {why}. Leave it out")]
-    Fixed { key: &'static str, pattern: String, why: &'static str },
+    /// The hole of a unit closes.
+    #[error(
+        "turn = {turn:.4}deg with slide = {slide}: the holes of every {unit} would be {side:.3} \
+         tile edges a side, and rods need {LEAST_SIDE} to pass. Try a larger turn, or another slide"
+    )]
+    Hole { turn: f64, slide: f64, unit: String, side: f64 },
     /// Shared rods slide only where tiles alternate.
     #[error(
         "slide = {slide}: shared rods slide where tiles alternate like the fields of a chessboard; \
@@ -70,6 +73,9 @@ fn instead_of(slide: Option<f64>) -> String {
 /// Points and lines that should be the same are no farther apart, tile edges: what a
 /// person writes in six digits.
 const SAME: f64 = 1e-5;
+
+/// Least side of a unit's hole, tile edges: at a usual fit two rods wide.
+const LEAST_SIDE: f64 = 0.1;
 
 /// Steps and bounds in which another slide is looked for, tile edges.
 const SLIDE_STEP: f64 = 0.01;
@@ -160,15 +166,26 @@ impl Pattern {
                 }
             }
         }
-        for kind in [a, b] {
-            kind.figure(rule.join, shape, true).meetings(&[]).map_err(|_| ShapeError::Circuit {
-                turn: shape.turn.to_degrees(),
-                slide: shape.slide,
-                unit: kind.name.clone(),
-            })?;
-        }
-        Ok(())
+        [a, b].into_iter().try_for_each(|kind| holes(kind, rule.join, shape))
     }
+}
+
+/// Whether the outer rods of a unit, of either colour, run round a hole that is wide enough.
+fn holes(kind: &UnitKind, join: Join, shape: Shape) -> Result<(), ShapeError> {
+    let (turn, slide, unit) = (shape.turn.to_degrees(), shape.slide, kind.name.clone());
+    for even in [true, false] {
+        let figure = kind.figure(join, shape, even);
+        let Ok(meetings) = figure.meetings(&[]) else {
+            return Err(ShapeError::Circuit { turn, slide, unit });
+        };
+        if let [first, second, ..] = &meetings.all[..meetings.circuit] {
+            let side = (first.at - second.at).norm();
+            if side < LEAST_SIDE - SAME {
+                return Err(ShapeError::Hole { turn, slide, unit, side });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Whether a rod that goes from one unit into another comes to rest there.

@@ -114,7 +114,7 @@ impl Figure {
             let first = &self.outer[0];
             let middle = self.outer.iter().fold(Vector2::zeros(), |s, l| s + l.at.coords);
             let away = (middle / n as f64 - first.at.coords).perp(&first.inward);
-            Meetings { all: Vec::new(), circuit: 0, counter_clockwise: away < 0.0 }
+            Meetings { all: Vec::new(), circuit: 0, counter_clockwise: away > 0.0 }
         };
         if self.stops.is_empty() && self.inner.is_empty() && guests.is_empty() {
             return Ok(meetings);
@@ -258,3 +258,6 @@ fn settle(meeting: &mut Meeting, ends: &[(Member, [f64; 2])]) {
         meeting.along = [s, t];
     }
 }
+
+#[cfg(test)]
+mod tests;

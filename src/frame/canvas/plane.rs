@@ -30,6 +30,8 @@ pub struct PlaneCanvas<'a, C> {
     tiling: Tiling,
     layout: Layout,
     kinds: Vec<UnitKind>,
+    /// For each kind, how its rods join where the layout ends, and no neighbour says it.
+    alone: Vec<Join>,
     placement: Placement,
     shape: Shape,
 }
@@ -80,7 +82,12 @@ impl<'a, C: Chart> PlaneCanvas<'a, C> {
         let high = corners[1..].iter().fold(corners[0], |m, p| m.sup(p));
         let tiling = pattern.tiling.patch(low, high);
         let layout = Layout::new(pattern, &tiling)?;
-        Ok(Self { chart, tiling, layout, kinds: pattern.kinds.clone(), placement, shape })
+        let joins = |kind| pattern.rules.iter().find(|r| r.slots.iter().any(|s| s.kind == kind));
+        let alone = (0..pattern.kinds.len())
+            .map(|kind| joins(kind).map_or(Join::Shared, |rule| rule.join))
+            .collect();
+        let kinds = pattern.kinds.clone();
+        Ok(Self { chart, tiling, layout, kinds, alone, placement, shape })
     }
 
     /// The unit on a tile.
@@ -96,8 +103,11 @@ impl<'a, C: Chart> PlaneCanvas<'a, C> {
         let along = if edges[edge].left == tile { from - to } else { to - from };
         let out = Vector2::new(-along.y, along.x);
         let place = self.layout.tiles[tile];
-        let crossing =
-            self.kinds[place.kind].crossing(self.layout.joins[edge], self.shape, place.even);
+        let join = match edges[edge].right {
+            Some(_) => self.layout.joins[edge],
+            None => self.alone[place.kind],
+        };
+        let crossing = self.kinds[place.kind].crossing(join, self.shape, place.even);
         let in_plane = |v: Vector2<f64>| along * v.x + out * v.y;
         Line {
             at: self.tiling.midpoint(edge) + in_plane(crossing.at().coords),
