@@ -4,7 +4,7 @@ use super::progress::Progress;
 use super::summary::summary;
 use super::terminal::{Terminal, print};
 use super::{Failure, design_failure};
-use crate::design::{Design, Settings};
+use crate::design::{Design, Folders, Settings};
 use crate::documents;
 use crate::frame::fit::{Fit, FitBy};
 use crate::frame::guide::Guide;
@@ -87,9 +87,12 @@ fn design(args: &Args) -> Result<Design, Failure> {
         None => Settings::default(),
     };
     let folder = args.design.as_deref().and_then(Path::parent);
-    // A surface named on the command line is not looked up beside the design file.
-    let folder = folder.filter(|_| args.settings.surface.is_none());
-    args.settings.clone().or(from_file).resolve(folder).map_err(design_failure)
+    // What is named on the command line is not looked up beside the design file.
+    let folders = Folders {
+        surface: folder.filter(|_| args.settings.surface.is_none()),
+        pattern: folder.filter(|_| args.settings.pattern.is_none()),
+    };
+    args.settings.clone().or(from_file).resolve(folders).map_err(design_failure)
 }
 
 /// What to say of sticks that sit badly in units that were not fitted to them.

@@ -3,7 +3,7 @@
 use super::progress::Progress;
 use super::terminal::Terminal;
 use super::{Failure, design_failure, write_result};
-use crate::design::{Design, Settings};
+use crate::design::{Design, Folders, Settings};
 use crate::drawing::svg;
 use crate::pipeline;
 use crate::sheets::{Exhibit, contact_sheet};
@@ -61,5 +61,9 @@ fn exhibit(file: &Path, quiet: bool, terminal: &Terminal) -> Result<Exhibit, Fai
 fn read(file: &Path) -> Result<Design, Failure> {
     // These errors name the file themselves.
     let settings = Settings::read(file).map_err(design_failure)?;
-    settings.resolve(file.parent()).map_err(|e| Failure::input(format!("{}: {e}", file.display())))
+    let folders = Folders { surface: file.parent(), pattern: file.parent() };
+    settings.resolve(folders).map_err(|e| {
+        let message = format!("{}: {e}", file.display());
+        if e.is_io() { Failure::File(message) } else { Failure::Input(message) }
+    })
 }

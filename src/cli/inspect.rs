@@ -7,7 +7,6 @@ mod surface;
 use super::Failure;
 use super::input::{Input, Preparation};
 use super::terminal::{Terminal, print};
-use std::fmt::{Display, Write as _};
 use std::path::PathBuf;
 
 #[derive(clap::Args)]
@@ -50,25 +49,4 @@ pub fn run(args: Args, terminal: &Terminal) -> Result<(), Failure> {
         }
     };
     print(text.as_bytes())
-}
-
-/// Lines of text under a heading.
-struct Page<'a> {
-    text: String,
-    terminal: &'a Terminal,
-}
-
-impl Page<'_> {
-    fn head(&mut self, title: &str) {
-        let title = self.terminal.bold(title);
-        writeln!(self.text, "{title}").expect("writing to a string cannot fail");
-    }
-
-    fn row(&mut self, label: &str, value: impl Display) {
-        writeln!(self.text, "  {label:<14} {value}").expect("writing to a string cannot fail");
-    }
-
-    fn line(&mut self, line: impl Display) {
-        writeln!(self.text, "  {line}").expect("writing to a string cannot fail");
-    }
 }

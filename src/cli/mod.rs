@@ -6,6 +6,8 @@ mod convert;
 mod gallery;
 mod input;
 mod inspect;
+mod page;
+mod patterns;
 mod progress;
 mod sample;
 mod summary;
@@ -35,6 +37,8 @@ struct Cli {
 enum Command {
     /// Make a frame on a surface and write everything needed to build it
     Build(Box<build::Args>),
+    /// List the patterns, tell about one, or check the rules of a pattern file
+    Patterns(patterns::Args),
     /// Tell everything about a rod, contact or unit of a finished folder, or about a surface
     Inspect(inspect::Args),
     /// Write a surface or a finished structure in another format
@@ -84,10 +88,7 @@ fn write_result(out: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
 
 /// A design file that cannot be had, as opposed to one that asks for what cannot be.
 fn design_failure(e: DesignError) -> Failure {
-    match e {
-        DesignError::Unreadable { .. } => Failure::file(e),
-        _ => Failure::input(e),
-    }
+    if e.is_io() { Failure::file(e) } else { Failure::input(e) }
 }
 
 /// Runs the program with the arguments of the process.
@@ -99,6 +100,7 @@ pub fn run() -> ExitCode {
     let terminal = Terminal::new(cli.color);
     let done = match cli.command {
         Command::Build(args) => build::run(*args, &terminal),
+        Command::Patterns(args) => patterns::run(&args, &terminal),
         Command::Inspect(args) => inspect::run(args, &terminal),
         Command::Convert(args) => convert::run(&args, &terminal),
         Command::Sample(args) => sample::run(&args),

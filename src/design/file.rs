@@ -58,7 +58,10 @@ impl Design {
         let rotate = self.given.rotate.map_or_else(|| "0deg".into(), |a| a.to_string());
         match &self.tiles {
             Tiles::Pattern(pattern) => {
-                file.set("pattern", pattern.name.clone());
+                file.set("pattern", self.given.pattern_name());
+                if let Some(cycle) = &self.given.cycle {
+                    file.set("cycle", cycle.clone());
+                }
                 file.set("chart", choice(self.chart));
                 match self.unit {
                     Some(unit) => file.set("unit", mm(unit)),

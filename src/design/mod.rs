@@ -8,11 +8,12 @@ mod file;
 mod resolve;
 mod settings;
 
+pub use resolve::Folders;
 pub use settings::Settings;
 
 use crate::chart::Method;
 use crate::frame::layer::Layering;
-use crate::pattern::{Pattern, ShapeError};
+use crate::pattern::{Pattern, PatternError, ShapeError};
 use crate::sheets::{Paper, PaperUnits};
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
@@ -159,6 +160,9 @@ pub enum DesignError {
     /// The design file is not valid; the message names line, key and known keys.
     #[error("{file}: {source}")]
     Invalid { file: PathBuf, source: Box<toml::de::Error> },
+    /// The pattern file cannot be read, or is not valid.
+    #[error("{}", source.in_file(file))]
+    Pattern { file: PathBuf, source: Box<PatternError> },
     /// No surface anywhere.
     #[error(
         "no surface given. Name a file, as in `rodwright build samples/igloo.obj`, or set `surface` in the design file"
@@ -173,6 +177,17 @@ pub enum DesignError {
     /// A setting is outside its bounds.
     #[error("{key} = {value}: {problem}")]
     Setting { key: &'static str, value: String, problem: String },
+}
+
+impl DesignError {
+    /// Whether a file cannot be read, as opposed to one that asks for what cannot be.
+    pub fn is_io(&self) -> bool {
+        match self {
+            Self::Unreadable { .. } => true,
+            Self::Pattern { source, .. } => source.is_io(),
+            _ => false,
+        }
+    }
 }
 
 impl Design {

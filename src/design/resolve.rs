@@ -4,26 +4,39 @@ use super::{ALL_PARTS, Design, DesignError, SPHERE, Settings, Sphere, Tiles};
 use crate::pattern::{Pattern, Shape, library};
 use crate::tiling::conway::Notation;
 use crate::units::{Angle, Length};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Where relative paths are looked up before where we are: in the folder of the design
+/// file that names them.
+#[derive(Clone, Copy, Default, Debug)]
+pub struct Folders<'a> {
+    /// For the surface.
+    pub surface: Option<&'a Path>,
+    /// For the pattern file.
+    pub pattern: Option<&'a Path>,
+}
+
+/// A file in a folder if there is one of this name, or else where we are.
+fn beside(folder: Option<&Path>, file: &Path) -> PathBuf {
+    folder.map(|f| f.join(file)).filter(|f| f.exists()).unwrap_or_else(|| file.to_path_buf())
+}
 
 fn setting(key: &'static str, value: impl ToString, problem: impl Into<String>) -> DesignError {
     DesignError::Setting { key, value: value.to_string(), problem: problem.into() }
 }
 
 impl Settings {
-    /// Fills in the defaults and checks every setting. Relative surface paths are
-    /// looked up in `folder` (that of the design file) first, then where we are.
+    /// Fills in the defaults and checks every setting.
     ///
     /// # Errors
     /// [`DesignError`] with the setting, its value, and what would be allowed.
-    pub fn resolve(self, folder: Option<&Path>) -> Result<Design, DesignError> {
+    pub fn resolve(self, folders: Folders) -> Result<Design, DesignError> {
         let surface = self.surface.clone().ok_or(DesignError::NoSurface)?;
-        let beside = folder.map(|f| f.join(&surface)).filter(|f| f.exists());
         let rod = positive("rod", self.rod)?.unwrap_or(DEFAULT_ROD);
-        let tiles = self.tiles(&surface.to_string_lossy())?;
+        let tiles = self.tiles(&surface.to_string_lossy(), folders.pattern)?;
         self.check_fit_for(&tiles)?;
         Ok(Design {
-            surface_file: beside.unwrap_or_else(|| surface.clone()),
+            surface_file: beside(folders.surface, &surface),
             surface,
             chart: self.chart.unwrap_or_default(),
             cut: self.cut,
@@ -53,7 +66,7 @@ impl Settings {
     }
 
     /// What the units are made on, by the surface and the pattern asked for.
-    fn tiles(&self, surface: &str) -> Result<Tiles, DesignError> {
+    fn tiles(&self, surface: &str, folder: Option<&Path>) -> Result<Tiles, DesignError> {
         if let Some(text) = surface.strip_prefix(SPHERE) {
             let notation = text.parse::<Notation>();
             let notation = notation.map_err(|e| setting("surface", surface, e.to_string()))?;
@@ -67,7 +80,7 @@ impl Settings {
         }
         Ok(match self.pattern.as_deref() {
             Some("mesh") => Tiles::Mesh,
-            name => Tiles::Pattern(pattern(name)?.clone().into()),
+            _ => Tiles::Pattern(self.plane_pattern(folder)?.into()),
         })
     }
 
@@ -86,12 +99,33 @@ impl Settings {
         Ok(slide)
     }
 
+    /// The pattern as it is named: of the library, or a file.
+    pub(super) fn pattern_name(&self) -> &str {
+        self.pattern.as_deref().unwrap_or(&library()[0].name)
+    }
+
+    /// The pattern asked for.
+    fn plane_pattern(&self, folder: Option<&Path>) -> Result<Pattern, DesignError> {
+        let (name, cycle) = (self.pattern_name(), self.cycle.as_deref());
+        if Pattern::is_file(name) {
+            let file = beside(folder, Path::new(name));
+            return Pattern::read(&file, cycle)
+                .map_err(|source| DesignError::Pattern { file, source: source.into() });
+        }
+        let pattern = Pattern::named(name).ok_or_else(|| no_such_pattern(name))?;
+        match cycle {
+            Some(cycle) => pattern.on(cycle).map_err(|e| setting("cycle", cycle, e.to_string())),
+            None => Ok(pattern.clone()),
+        }
+    }
+
     /// Refuses settings that say nothing about what the units are made on.
     fn check_fit_for(&self, tiles: &Tiles) -> Result<(), DesignError> {
         let unit = self.unit.is_some().then_some("unit");
         let origin = self.origin.is_some().then_some("origin");
         let rotate = self.rotate.is_some().then_some("rotate");
         let pattern = self.pattern.is_some().then_some("pattern");
+        let cycle = self.cycle.is_some().then_some("cycle");
         let up = self.up.is_some().then_some("up");
         let component = self.component.is_some().then_some("component");
         let chart = self.chart.is_some().then_some("chart");
@@ -101,11 +135,11 @@ impl Settings {
                 "it is for spheres, as in sphere:aI/2",
             ),
             Tiles::Mesh => (
-                vec![self.warp.is_some().then_some("warp"), unit, origin, rotate, chart],
+                vec![self.warp.is_some().then_some("warp"), cycle, unit, origin, rotate, chart],
                 "the polygons of the mesh are the units; --span sets their size",
             ),
             Tiles::Sphere(_) => (
-                vec![pattern, unit, origin, up, component, chart],
+                vec![pattern, cycle, unit, origin, up, component, chart],
                 "the notation of the sphere says where its units are; --span sets their size",
             ),
         };
@@ -145,16 +179,14 @@ fn not_negative(key: &'static str, length: Option<Length>) -> Result<Option<f64>
     }
 }
 
-fn pattern(name: Option<&str>) -> Result<&'static Pattern, DesignError> {
-    let name = name.unwrap_or(&library()[0].name);
-    Pattern::named(name).ok_or_else(|| {
-        let near = Pattern::near(name).join(", ");
-        let problem = format!(
-            "no such pattern; the nearest are {near}. README.md lists all {}, and mesh",
-            library().len()
-        );
-        setting("pattern", name, problem)
-    })
+fn no_such_pattern(name: &str) -> DesignError {
+    let near = Pattern::near(name).join(", ");
+    let problem = format!(
+        "no such pattern; the nearest are {near}. `rodwright patterns` lists all {}; mesh is for \
+         the polygons of the surface, and a name that ends in .toml for a pattern file",
+        library().len()
+    );
+    setting("pattern", name, problem)
 }
 
 fn origin(lengths: Option<&[Length]>) -> Result<[f64; 2], DesignError> {

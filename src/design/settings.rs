@@ -28,9 +28,14 @@ pub struct Settings {
     #[arg(long, value_name = "LENGTH")]
     pub span: Option<Length>,
 
-    /// Pattern, by vertex configuration, or mesh for the surface's own polygons [default: 4.4.4.4]
+    /// Pattern: a name of `rodwright patterns`, a pattern file (.toml), or mesh for the
+    /// surface's own polygons [default: 4.4.4.4]
     #[arg(long, value_name = "NAME")]
     pub pattern: Option<String>,
+
+    /// Tiling, where the rules of the pattern make several [default: as the pattern says]
+    #[arg(long, value_name = "NAME")]
+    pub cycle: Option<String>,
 
     /// How the surface is flattened [default: abf]
     #[arg(long, value_enum)]
@@ -133,6 +138,8 @@ impl Settings {
             surface: self.surface.or(other.surface),
             rod: self.rod.or(other.rod),
             span: self.span.or(other.span),
+            // A tiling goes with the pattern that it was named for.
+            cycle: self.cycle.or(other.cycle.filter(|_| self.pattern.is_none())),
             pattern: self.pattern.or(other.pattern),
             chart: self.chart.or(other.chart),
             cut: self.cut.or(other.cut),

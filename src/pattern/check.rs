@@ -17,10 +17,7 @@ pub enum ShapeError {
     )]
     Turn { pattern: String, turn: f64, safe: [f64; 2] },
     /// The slide is not safe.
-    #[error(
-        "slide = {slide}: the pattern {pattern} holds together between {} and {} tile edges",
-        safe[0], safe[1]
-    )]
+    #[error("slide = {slide}: the pattern {pattern} {}", slides(safe))]
     Slide { pattern: String, slide: f64, safe: [f64; 2] },
     /// Turn and slide are each safe, but not together.
     #[error(
@@ -61,6 +58,14 @@ pub enum ShapeError {
     /// The outer rods make no circuit.
     #[error("turn = {turn:.4}deg with slide = {slide}: the rods of {unit} run round in no circuit")]
     Circuit { turn: f64, slide: f64, unit: String },
+}
+
+fn slides([least, most]: &[f64; 2]) -> String {
+    if least == most {
+        "stays as it is: its rods do not slide. Leave --slide out".into()
+    } else {
+        format!("holds together between {least} and {most} tile edges")
+    }
 }
 
 fn instead_of(slide: Option<f64>) -> String {

@@ -65,7 +65,7 @@ impl Draft {
         let [turn, slide] = self.figures;
         let pattern = Pattern {
             name: self.file.name.unwrap_or_else(|| name.to_owned()),
-            summary: self.file.summary.unwrap_or_default(),
+            summary: self.file.summary.unwrap_or_else(|| plain_summary(own)),
             source: self.file.source.unwrap_or_default(),
             turn: turn.unwrap_or_else(|| usual_turn(own)),
             slide: slide.unwrap_or(STILL),
@@ -114,13 +114,24 @@ impl Pattern {
     }
 
     /// Turn and slide are safe on the tiling that they were found for; on another one they
-    /// are what its vertices allow.
+    /// are what its vertices allow. The summary, too, is of that tiling.
     fn moved_to(self, tiling: &'static UniformTiling) -> Self {
         if self.tiling.name == tiling.name {
             return self;
         }
         let name = format!("{} as {}", self.name, tiling.name);
-        Self { name, tiling, turn: usual_turn(tiling), slide: STILL, ..self }
+        let summary = plain_summary(tiling);
+        Self { name, summary, tiling, turn: usual_turn(tiling), slide: STILL, ..self }
+    }
+}
+
+/// What a pattern looks like of which nobody has said it.
+fn plain_summary(tiling: &UniformTiling) -> String {
+    let sides: Vec<String> = tiling.polygons().iter().map(usize::to_string).collect();
+    match &sides[..] {
+        [one] => format!("units of {one} rods"),
+        [first @ .., last] => format!("units of {} and {last} rods", first.join(", ")),
+        [] => String::new(),
     }
 }
 
@@ -195,6 +206,7 @@ mod tests {
         let pattern = Pattern::parse(&file("", &["3", "6"], &["a-b"]), "mine").unwrap();
         assert_eq!((pattern.name.as_str(), pattern.tiling.name), ("mine", "3.6.3.6"));
         assert_eq!(pattern.turn, Parameter { usual: 20.0, safe: [8.0, 24.0] });
+        assert_eq!(pattern.summary, "units of 3 and 6 rods");
         let message = refused(&file("", &["3", "4"], &["a-a", "a-b"]));
         assert!(message.contains("3.3.4.3.4") && message.contains("--cycle"), "{message}");
     }
@@ -207,6 +219,7 @@ mod tests {
         assert_eq!((own.tiling.name, own.turn.usual), ("3.3.4.3.4", 15.0));
         let other = Pattern::parse_with(&text, "mine", Some("3.3.3.3.3.3")).unwrap();
         assert_eq!((other.name.as_str(), other.turn.usual), ("mine as 3.3.3.3.3.3", 20.0));
+        assert_eq!(other.summary, "units of 3 rods");
         let same = own.on("3.3.3.3.3.3").unwrap();
         assert_eq!((&same.name, same.tiling.name), (&other.name, other.tiling.name));
         assert_eq!(own.on("3.3.4.3.4").unwrap().turn.usual, 15.0);

@@ -5,7 +5,7 @@ use super::{Join, Parameter, Rule, SIDES, Slot, Stick, UnitKind};
 use nalgebra::{Point2, Rotation2};
 use serde::Deserialize;
 use std::f64::consts::TAU;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// What is wrong with a pattern file.
@@ -32,6 +32,18 @@ pub enum PatternError {
     /// Rules that do not make the tiling asked for, or several.
     #[error(transparent)]
     Tiling(#[from] ChoiceError),
+}
+
+impl PatternError {
+    /// Whether the file cannot be read, as opposed to one that is not valid.
+    pub fn is_io(&self) -> bool {
+        matches!(self, Self::Unreadable { .. })
+    }
+
+    /// The message, with the name of the file in front.
+    pub fn in_file(&self, file: &Path) -> String {
+        if self.is_io() { self.to_string() } else { format!("{}: {self}", file.display()) }
+    }
 }
 
 /// The file as it is written.

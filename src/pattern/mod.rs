@@ -31,6 +31,7 @@ pub use unit::{FlatUnit, Line};
 
 use crate::tiling::UniformTiling;
 use nalgebra::Point2;
+use std::path::Path;
 
 /// Units, the rules by which they connect, and the tiling that they make.
 #[derive(Clone, Debug)]
@@ -148,6 +149,11 @@ impl Pattern {
     /// The pattern of the library with this name.
     pub fn named(name: &str) -> Option<&'static Self> {
         library().iter().find(|p| p.name == name)
+    }
+
+    /// Whether a text names a pattern file, by its ending, and not one of the library.
+    pub fn is_file(name: &str) -> bool {
+        Path::new(name).extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
     }
 
     /// The names most like one that is not there, the likeliest first: those that begin

@@ -4,6 +4,7 @@ mod building;
 mod check;
 mod converting;
 mod inspecting;
+mod patterns;
 mod refusals;
 mod run;
 mod samples;

@@ -1,7 +1,8 @@
 //! What `inspect` tells about a structure.
 
-use super::{Args, Page};
+use super::Args;
 use crate::cli::Failure;
+use crate::cli::page::Page;
 use crate::cli::terminal::Terminal;
 use crate::frame::{ContactKind, End, Frame};
 use crate::ids::{ContactId, Id, IdVec, RodId, UnitId};
@@ -15,7 +16,7 @@ use std::fmt::Display;
 /// The page about a structure, or about the rod, contact or unit asked for.
 pub fn page(args: &Args, structure: &Structure, terminal: &Terminal) -> Result<String, Failure> {
     let frame = structure.to_frame().map_err(Failure::input)?;
-    let mut page = Page { text: String::new(), terminal };
+    let mut page = Page::new(terminal);
     if let Some(id) = &args.rod {
         rod(&mut page, &frame, find(&frame.rods, id, "rod")?);
     } else if let Some(id) = &args.contact {

@@ -1,8 +1,9 @@
 //! What `inspect` tells about a surface: its size, its pieces, and whether a frame can be
 //! made on it.
 
-use super::{Args, Page};
+use super::Args;
 use crate::cli::Failure;
+use crate::cli::page::Page;
 use crate::cli::terminal::Terminal;
 use crate::surface::Mesh;
 use crate::surface::prepare::Prepared;
@@ -12,7 +13,7 @@ use crate::surface::topology::{Topology, TopologyError, require_chartable};
 
 /// The page about a surface, as the options leave it.
 pub fn page(args: &Args, reading: Reading, terminal: &Terminal) -> Result<String, Failure> {
-    let mut page = Page { text: String::new(), terminal };
+    let mut page = Page::new(terminal);
     let turned = reading.y_up_metres && !args.preparation.turns();
     let Prepared { mesh, notes } = args.preparation.apply(reading)?;
     let topology = Topology::new(&mesh).map_err(Failure::input)?;

@@ -76,7 +76,8 @@ impl Repeat {
     }
 }
 
-/// Tries the rules on the tiles round the middle, without asking that they repeat.
+/// Tries the rules on the tiles round the middle, ring by ring, without asking that they
+/// repeat.
 fn possible(
     cell: &Cell,
     kinds: &[UnitKind],
@@ -84,25 +85,22 @@ fn possible(
     choices: &BTreeMap<usize, Vec<Choice>>,
     tries: &mut usize,
 ) -> Result<(), Problem> {
-    let (spots, rings) = disc(cell);
-    let index: BTreeMap<Spot, usize> = spots.iter().enumerate().map(|(i, &s)| (s, i)).collect();
-    let across: Vec<Vec<_>> = spots
-        .iter()
-        .map(|&spot| {
-            let beyond = neighbours(cell, spot);
-            beyond.map(|(other, edge)| index.get(&other).map(|&i| (i, edge))).collect()
-        })
-        .collect();
-    let Outcome::Impossible(DeadEnd { tile, beside }) =
-        solve(&Puzzle { across: &across, joints, choices }, tries)
-    else {
-        return Ok(());
-    };
-    Err(Problem {
-        sides: across[tile].len(),
-        ring: rings[tile],
-        beside: beside.into_iter().map(|k| kinds[k].name.clone()).collect(),
-    })
+    for radius in 1..=RINGS {
+        let (spots, rings) = disc(cell, radius);
+        let index: BTreeMap<Spot, usize> = spots.iter().enumerate().map(|(i, &s)| (s, i)).collect();
+        let beyond = |(spot, edge)| index.get(&spot).map(|&i| (i, edge));
+        let across: Vec<Vec<_>> =
+            spots.iter().map(|&spot| neighbours(cell, spot).map(beyond).collect()).collect();
+        let outcome = solve(&Puzzle { across: &across, joints, choices }, tries);
+        if let Outcome::Impossible(DeadEnd { tile, beside }) = outcome {
+            return Err(Problem {
+                sides: across[tile].len(),
+                ring: rings[tile],
+                beside: beside.into_iter().map(|k| kinds[k].name.clone()).collect(),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Why rules cannot be laid at all.
@@ -128,11 +126,11 @@ fn neighbours(cell: &Cell, spot: Spot) -> impl Iterator<Item = (Spot, usize)> {
 }
 
 /// The tiles within some rings of the middle one, outwards, and the ring of each.
-fn disc(cell: &Cell) -> (Vec<Spot>, Vec<usize>) {
+fn disc(cell: &Cell, radius: usize) -> (Vec<Spot>, Vec<usize>) {
     let mut spots = vec![Spot { tile: 0, shift: [0; 2] }];
     let mut rings = vec![0];
     let mut next = 0;
-    while next < spots.len() && rings[next] < RINGS {
+    while next < spots.len() && rings[next] < radius {
         for (other, _) in neighbours(cell, spots[next]) {
             if !spots.contains(&other) {
                 spots.push(other);
