@@ -1,6 +1,7 @@
 //! Units and rules for tests.
 
 use super::{Join, Rule, Slot, UnitKind};
+use proptest::prelude::*;
 
 /// A plain unit.
 pub fn kind(name: &str, sides: usize) -> UnitKind {
@@ -40,6 +41,25 @@ pub fn grammar(sides: &[usize], rules: &[&str]) -> (Vec<UnitKind>, Vec<Rule>) {
     });
     let rules = rules.collect();
     (kinds, rules)
+}
+
+/// Up to four units, and up to six rules between them, sometimes about one side if `named`.
+pub fn any_grammar(named: bool) -> impl Strategy<Value = (Vec<UnitKind>, Vec<Rule>)> {
+    let sides = prop::sample::select(vec![3usize, 4, 5, 6, 8, 12]);
+    let side = if named { (0..24usize).boxed() } else { Just(23).boxed() };
+    let slot = (0..4usize, side);
+    let slots = (slot.clone(), slot);
+    let rules = prop::collection::vec(slots, 1..7);
+    (prop::collection::vec(sides, 1..5), rules).prop_map(|(sides, rules)| {
+        let kinds: Vec<_> = ('a'..).zip(sides).map(|(c, n)| kind(&format!("{n}{c}"), n)).collect();
+        let slot = |(kind, side): (usize, usize)| {
+            let kind = kind % kinds.len();
+            Slot { kind, side: Some(side).filter(|&s| s < kinds[kind].sides) }
+        };
+        let rule = |(a, b)| Rule { slots: [slot(a), slot(b)], join: Join::Shared };
+        let rules = rules.into_iter().map(rule).collect();
+        (kinds, rules)
+    })
 }
 
 const NAMES: [&str; 10] = [

@@ -1,6 +1,6 @@
 use super::*;
 use crate::pattern::library;
-use crate::pattern::testing::grammar;
+use crate::pattern::testing::{any_grammar, grammar};
 use proptest::prelude::*;
 use walk::{FULL, interior};
 
@@ -180,37 +180,6 @@ fn all_rounds(kinds: &[UnitKind], rules: &[Rule]) -> BTreeSet<(Vec<usize>, Vec<u
         }
     }
     found
-}
-
-/// Up to four units, and rules between them, sometimes about one side.
-fn any_grammar(named: bool) -> impl Strategy<Value = (Vec<UnitKind>, Vec<Rule>)> {
-    let sides = prop::sample::select(vec![3usize, 4, 5, 6, 8, 12]);
-    let side = if named { (0..24usize).boxed() } else { Just(23).boxed() };
-    let slot = (0..4usize, side);
-    let slots = (slot.clone(), slot);
-    (prop::collection::vec(sides, 1..5), prop::collection::vec(slots, 1..7)).prop_map(
-        |(sides, rules)| {
-            let kinds: Vec<_> = sides
-                .iter()
-                .enumerate()
-                .map(|(i, &n)| {
-                    crate::pattern::testing::kind(&format!("{n}{}", [' ', 'b', 'c', 'd'][i]), n)
-                })
-                .collect();
-            let slot = |(kind, side): (usize, usize)| {
-                let kind = kind % kinds.len();
-                crate::pattern::Slot { kind, side: Some(side).filter(|&s| s < kinds[kind].sides) }
-            };
-            let rules = rules
-                .into_iter()
-                .map(|(a, b)| Rule {
-                    slots: [slot(a), slot(b)],
-                    join: crate::pattern::Join::Shared,
-                })
-                .collect();
-            (kinds, rules)
-        },
-    )
 }
 
 proptest! {

@@ -1,9 +1,11 @@
 use super::*;
 use crate::ids::Id;
-use crate::pattern::testing::{grammar, kind, rule};
+use crate::pattern::grammar::check;
+use crate::pattern::testing::{any_grammar, grammar, kind, rule};
 use crate::pattern::{Rule, UnitKind, library};
 use crate::tiling::{UNIFORM, UniformTiling};
 use nalgebra::Point2;
+use proptest::prelude::*;
 use std::collections::BTreeMap;
 
 fn pattern(kinds: Vec<UnitKind>, rules: Vec<Rule>, tiling: &str) -> Pattern {
@@ -183,5 +185,21 @@ fn all_units_of_the_table_can_be_told_apart_by_their_sides() {
         let patch = patch(tiling, 6.0);
         let layout = Layout::new(&pattern, &patch).unwrap();
         assert!(layout.tiles.iter().all(|p| p.first == 0), "{}", tiling.name);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..Default::default() })]
+
+    /// Every tiling that the check finds can be laid, and every edge of it is by a rule.
+    #[test]
+    fn what_the_check_finds_is_laid_by_the_rules((kinds, rules) in any_grammar(true)) {
+        let Ok(allowed) = check(&kinds, &rules) else { return Ok(()) };
+        for tiling in allowed.tilings {
+            let pattern = pattern(kinds.clone(), rules.clone(), tiling.name);
+            let patch = patch(tiling, 5.0);
+            let layout = Layout::new(&pattern, &patch).unwrap();
+            prop_assert!(is_sound(&layout, &pattern, &patch));
+        }
     }
 }
