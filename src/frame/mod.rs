@@ -17,6 +17,7 @@ pub mod guide;
 pub mod layer;
 pub mod lift;
 pub mod measure;
+pub mod plane_rods;
 pub mod stand;
 pub mod weave;
 

@@ -1,7 +1,6 @@
 //! Simple charts for tests.
 
-use crate::chart::{Chart, SurfacePoint};
-use crate::surface::Vector3;
+use crate::chart::{Chart, SurfacePoint, in_plane};
 use nalgebra::Point2;
 
 /// The plane itself, from −5 to 5 either way, and beyond where asked.
@@ -13,7 +12,7 @@ impl Chart for Sheet {
     }
 
     fn lift(&self, p: Point2<f64>) -> Option<SurfacePoint> {
-        Some(SurfacePoint { position: [p.x, p.y, 0.0].into(), normal: Vector3::z() })
+        Some(in_plane(p))
     }
 }
 
@@ -27,7 +26,6 @@ impl Chart for Rooms {
 
     fn lift(&self, p: Point2<f64>) -> Option<SurfacePoint> {
         let room = |x0: f64, x1: f64, y: f64| x0 < p.x && p.x < x1 && p.y.abs() < y;
-        (room(-4.6, 4.6, 4.6) || room(4.0, 10.0, 0.6) || room(9.0, 13.6, 2.6))
-            .then(|| SurfacePoint { position: [p.x, p.y, 0.0].into(), normal: Vector3::z() })
+        (room(-4.6, 4.6, 4.6) || room(4.0, 10.0, 0.6) || room(9.0, 13.6, 2.6)).then(|| in_plane(p))
     }
 }
