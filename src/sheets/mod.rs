@@ -5,6 +5,7 @@
 //! full size, in one piece and tiled over pages. Nothing here writes files: pages are
 //! rendered by [`drawing::pdf`](crate::drawing::pdf) and [`drawing::svg`](crate::drawing::svg).
 
+mod band;
 mod contact_sheet;
 mod cover;
 mod cut_list;
@@ -13,6 +14,8 @@ mod legend;
 mod line_picture;
 mod page;
 mod paper;
+mod pattern_picture;
+mod pattern_sheet;
 mod pictures;
 mod rod_cards;
 mod strip;
@@ -27,6 +30,8 @@ pub use contact_sheet::{Exhibit, contact_sheet};
 pub use format::PaperUnits;
 pub use page::Sheet;
 pub use paper::{Paper, PaperError};
+pub use pattern_picture::{PictureError, pattern_picture};
+pub use pattern_sheet::{PatternEntry, pattern_sheet};
 pub use pictures::pictures;
 
 use crate::drawing::DrawingError;
