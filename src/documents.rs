@@ -4,7 +4,7 @@ use crate::design::{Design, Part};
 use crate::drawing::pdf::{self, DocumentInfo, Page};
 use crate::drawing::{DrawingError, svg};
 use crate::pipeline::Model;
-use crate::sheets::{Sheet, SheetError, SheetSettings, pictures, sheets, support_map};
+use crate::sheets::{Sheet, SheetError, SheetSettings, footprint, pictures, sheets, support_map};
 use crate::shop::lengths::classes;
 use crate::write::cutlist::{cutlist_csv, cutlist_json};
 use crate::write::glb::{GlbError, glb};
@@ -47,6 +47,10 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
     if design.wants(Part::SupportMap) {
         add_support_map(design, model, &mut files)?;
     }
+    if let (Some(plane), true) = (&model.footprint, design.wants(Part::Footprint)) {
+        let sheet = footprint::drawing(plane, &sheet_settings(design, model))?;
+        files.add("footprint.svg", svg::render(&sheet)?);
+    }
     if design.wants(Part::Pictures) {
         for (name, picture) in pictures(frame) {
             files.add(format!("pictures/{name}.svg"), svg::render(&picture)?);
@@ -80,7 +84,9 @@ fn report(design: &Design, model: &Model) -> Report {
 }
 
 fn add_sheets(design: &Design, model: &Model, files: &mut Files) -> Result<(), DocumentError> {
-    let sheets = sheets(&model.formed.frame, &model.plan, &sheet_settings(design, model))?;
+    let plane = model.footprint.as_ref();
+    let settings = sheet_settings(design, model);
+    let sheets = sheets(&model.formed.frame, plane, &model.plan, &settings)?;
     for sheet in &sheets {
         files.add(format!("sheets/{}.svg", sheet.stem), svg::render(&sheet.page.drawing)?);
     }

@@ -6,6 +6,7 @@ use crate::design::{Design, Sphere, Tiles};
 use crate::frame::canvas::{Canvas, MeshTiles, PlaneCanvas, PlaneError, SphereTiles};
 use crate::frame::fit::{Fit, FitBy, FitError, fit};
 use crate::frame::fit_turn::{fit_turn, safe_turns, safe_turns_of_slid};
+use crate::frame::footprint::{Footprint, footprint};
 use crate::frame::form::{FormError, FormSettings, Formed, form, median_rise};
 use crate::frame::guide::Guide;
 use crate::frame::measure::{Measures, measure};
@@ -30,6 +31,8 @@ pub struct Model {
     pub fit: Fit,
     /// The frame.
     pub formed: Formed,
+    /// The plane that it was laid out on, if there is one.
+    pub footprint: Option<Footprint>,
     /// Its figures.
     pub measures: Measures,
     /// The sawing plan.
@@ -113,7 +116,10 @@ fn in_plane(
         }
     };
     let guide = Guide::Chart { mesh: chart.mesh().clone(), distortion: chart.distortion().clone() };
-    finish(design, &canvas, fit, guide, notes, begin)
+    let mut model = finish(design, &canvas, fit, guide, notes, begin)?;
+    let tiles = &model.formed.tiles;
+    model.footprint = Some(footprint(chart, pattern, place(model.fit.edge), shape, tiles)?);
+    Ok(model)
 }
 
 /// The polygons of the surface as they are.
@@ -173,7 +179,7 @@ fn finish(
     let measures = measure(&formed, &guide);
     begin(Step::Saw);
     let plan = sawing_plan(design, &formed)?;
-    Ok(Model { guide, notes, fit, formed, measures, plan })
+    Ok(Model { guide, notes, fit, formed, footprint: None, measures, plan })
 }
 
 /// Where units fail whose size and turn could not be fitted to the rods, says which rods

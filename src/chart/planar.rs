@@ -18,6 +18,7 @@ pub struct PlanarChart {
     normals: IdVec<VertexId, Vector3>,
     flat: IdVec<VertexId, Point2<f64>>,
     locator: PlanarLocator,
+    borders: Vec<Vec<VertexId>>,
     holes: Holes,
     distortion: Distortion,
 }
@@ -45,7 +46,8 @@ impl PlanarChart {
             Distortion { method, fallback, steps, ..measure(&mesh, topology, angles, &flat) };
         let normals = vertex_normals(&mesh);
         let locator = PlanarLocator::new(&flat, &mesh.triangles);
-        Ok(Self { mesh, normals, flat, locator, holes, distortion })
+        let borders = topology.border_loops();
+        Ok(Self { mesh, normals, flat, locator, borders, holes, distortion })
     }
 
     /// The surface that is mapped.
@@ -56,6 +58,12 @@ impl PlanarChart {
     /// Where the vertices lie in the plane, mm.
     pub fn flat(&self) -> &[Point2<f64>] {
         &self.flat
+    }
+
+    /// The border lines in the plane, mm, each closed: the outer one and those of holes.
+    pub fn outline(&self) -> Vec<Vec<Point2<f64>>> {
+        let place = |border: &Vec<VertexId>| border.iter().map(|&v| self.flat[v]).collect();
+        self.borders.iter().map(place).collect()
     }
 
     /// How much the map distorts.

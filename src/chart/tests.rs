@@ -86,6 +86,30 @@ fn assert_itself(chart: &PlanarChart) {
     }
 }
 
+/// Area inside closed lines: what holes enclose counts as nothing or is taken off, by the
+/// sense in which they run.
+fn enclosed(lines: &[Vec<Point2<f64>>]) -> f64 {
+    let cross = |line: &Vec<Point2<f64>>, i: usize| {
+        line[i].coords.perp(&line[(i + 1) % line.len()].coords) / 2.0
+    };
+    lines.iter().map(|line| (0..line.len()).map(|i| cross(line, i)).sum::<f64>()).sum()
+}
+
+/// Border lines of a sheet with two windows keep the sheet on their left, so that the area
+/// that they enclose is that of its triangles.
+#[test]
+fn the_outline_holds_every_border_and_encloses_the_sheet() {
+    let windows = |x: f64, y: f64| y.abs() < 40.0 && (x - 60.0).abs() < 20.0 || x.hypot(y) < 15.0;
+    let chart = chart_of(grid(windows, |_, _| 0.0), Method::Abf);
+    let mut lines = chart.outline();
+    assert_eq!(lines.len(), 3);
+    let area: f64 =
+        chart.mesh().triangles.ids().map(|f| chart.mesh().area_vector(f).norm() / 2.0).sum();
+    assert!((enclosed(&lines) - area).abs() < 1e-3, "{}", enclosed(&lines));
+    lines.retain(|line| enclosed(std::slice::from_ref(line)) > 0.0);
+    assert_eq!(lines.len(), 1);
+}
+
 #[test]
 fn a_flat_sheet_with_a_concave_window_maps_to_itself() {
     // Open to the right, its middle lies outside it.

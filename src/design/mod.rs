@@ -42,17 +42,20 @@ pub enum Part {
     Sheets,
     /// support-map.svg, support-map.pdf
     SupportMap,
+    /// footprint.svg: the flattened surface on its pattern.
+    Footprint,
     /// pictures/*.svg: the frame from the side and from above.
     Pictures,
 }
 
-const ALL_PARTS: [Part; 7] = [
+const ALL_PARTS: [Part; 8] = [
     Part::Structure,
     Part::Csv,
     Part::Cutlist,
     Part::Glb,
     Part::Sheets,
     Part::SupportMap,
+    Part::Footprint,
     Part::Pictures,
 ];
 

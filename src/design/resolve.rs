@@ -1,6 +1,6 @@
 //! Fills in the defaults and checks every setting.
 
-use super::{ALL_PARTS, Design, DesignError, SPHERE, Settings, Sphere, Tiles};
+use super::{ALL_PARTS, Design, DesignError, Part, SPHERE, Settings, Sphere, Tiles};
 use crate::pattern::{Pattern, Shape, library};
 use crate::tiling::conway::Notation;
 use crate::units::{Angle, Length};
@@ -145,8 +145,22 @@ impl Settings {
         };
         match idle.into_iter().flatten().next() {
             Some(key) => Err(DesignError::Idle { key, why }),
-            None => Ok(()),
+            None => self.check_footprint_for(tiles),
         }
+    }
+
+    /// Refuses to draw the footprint, where it is asked for by name, of what is not laid
+    /// flat.
+    fn check_footprint_for(&self, tiles: &Tiles) -> Result<(), DesignError> {
+        let why = match tiles {
+            Tiles::Pattern(_) => return Ok(()),
+            Tiles::Mesh => "the polygons of the mesh are the units, it is not laid flat",
+            Tiles::Sphere(_) => "a sphere is not laid flat",
+        };
+        if self.only.iter().flatten().any(|&part| part == Part::Footprint) {
+            return Err(DesignError::Idle { key: "only footprint", why });
+        }
+        Ok(())
     }
 }
 

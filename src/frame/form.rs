@@ -14,7 +14,7 @@ use super::lift::{Parallel, lift};
 use super::stand::{Standing, ground_level, stand};
 use super::weave::{Weave, weave};
 use super::{ContactKind, Dropped, Frame};
-use crate::ids::{ContactId, Id, IdVec, RodId, TileId};
+use crate::ids::{ContactId, Id, IdVec, RodId, TileId, UnitId};
 use crate::linalg::LinalgError;
 use std::collections::BTreeSet;
 use thiserror::Error;
@@ -39,6 +39,8 @@ pub struct FormSettings {
 pub struct Formed {
     /// The frame.
     pub frame: Frame,
+    /// The tile of each unit.
+    pub tiles: IdVec<UnitId, TileId>,
     /// What the last closing took.
     pub closing: Closing,
     /// How far each end of each rod moved in it, mm.
@@ -269,6 +271,7 @@ fn close_and_finish(
         .collect();
     Ok(finish(weave, &axes, &joints, edge, settings).map(|frame| Formed {
         frame,
+        tiles: weave.units.iter().map(|unit| unit.tile).collect(),
         closing,
         moves,
         rises,

@@ -12,6 +12,7 @@ pub mod cut;
 pub mod fault;
 pub mod fit;
 pub mod fit_turn;
+pub mod footprint;
 pub mod form;
 pub mod guide;
 pub mod layer;

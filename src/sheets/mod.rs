@@ -2,13 +2,15 @@
 //!
 //! [`sheets`] gives the pages of the workshop document: cover, cut list with sawing
 //! plan, rod cards and the table of feet. [`support_map`] gives the map of the feet at
-//! full size, in one piece and tiled over pages. Nothing here writes files: pages are
-//! rendered by [`drawing::pdf`](crate::drawing::pdf) and [`drawing::svg`](crate::drawing::svg).
+//! full size, in one piece and tiled over pages, [`footprint`] the surface laid flat.
+//! [`pattern_picture`], [`pattern_sheet`] and [`contact_sheet`] show what there is to choose
+//! from. Nothing here writes files: pages are rendered by [`drawing::pdf`](crate::drawing::pdf) and [`drawing::svg`](crate::drawing::svg).
 
 mod band;
 mod contact_sheet;
 mod cover;
 mod cut_list;
+pub mod footprint;
 mod format;
 mod legend;
 mod line_picture;
@@ -36,6 +38,7 @@ pub use pictures::pictures;
 
 use crate::drawing::DrawingError;
 use crate::frame::Frame;
+use crate::frame::footprint::Footprint;
 use crate::shop::CutPlan;
 
 /// How the papers look.
@@ -73,18 +76,22 @@ pub enum SheetError {
     },
 }
 
-/// The pages of the workshop document.
+/// The pages of the workshop document; `plane` is for models on a flattened surface.
 ///
 /// # Errors
 /// [`SheetError::PaperTooSmall`]; [`SheetError::Drawing`] if the frame holds numbers
 /// that are not finite.
 pub fn sheets(
     frame: &Frame,
+    plane: Option<&Footprint>,
     plan: &CutPlan,
     settings: &SheetSettings,
 ) -> Result<Vec<Sheet>, SheetError> {
     let settings = settings.checked()?;
     let mut leaves = cover::cover(frame, plan, &settings)?;
+    if let Some(plane) = plane {
+        leaves.extend(footprint::page(plane, &settings)?);
+    }
     leaves.extend(cut_list::cut_list(frame, plan, &settings)?);
     leaves.extend(rod_cards::rod_cards(frame, &settings)?);
     leaves.extend(support_tiles::overview(frame, &settings)?);

@@ -9,7 +9,7 @@ use crate::chart::Flat;
 use crate::drawing::font::{LEADING, fit_size, wrap};
 use crate::drawing::{Color, Draw, Drawing, DrawingError, Item, Paint, Point, Rect, Stroke};
 use crate::drawing::{Weight, clip};
-use crate::frame::canvas::{PlaneCanvas, TooManyUnits};
+use crate::frame::canvas::{PlaneCanvas, PlaneError};
 use crate::frame::crop::{crop, held};
 use crate::frame::plane_rods::{PlaneRod, plane_rods};
 use crate::frame::weave::{Weave, weave};
@@ -69,9 +69,9 @@ pub enum PictureError {
         /// What is wrong, as a clause.
         reason: &'static str,
     },
-    /// The picture is far longer than wide, or the other way round.
-    #[error("the picture would hold too many tiles: {0}")]
-    TooMany(#[from] TooManyUnits),
+    /// The tiles, as where the picture is far longer than wide.
+    #[error("the pattern cannot be laid out: {0}")]
+    Plane(#[from] PlaneError),
     /// The drawing.
     #[error(transparent)]
     Drawing(#[from] DrawingError),

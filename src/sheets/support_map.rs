@@ -90,12 +90,16 @@ pub fn pages(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Sheet>, Shee
     page::stamp(leaves, frame.diameter, &settings)
 }
 
+/// Height of a scale bar, mm.
+pub(super) const SCALE_BAR_HEIGHT: f64 = 4.0;
+
 /// A bar that is 100 mm long on paper, and what it stands for.
-fn scale_bar(out: &mut impl Draw, [x, y]: Point, n: f64, units: PaperUnits) {
+pub(super) fn scale_bar(out: &mut impl Draw, [x, y]: Point, n: f64, units: PaperUnits) {
     let pen = Stroke::new(0.3);
     out.line([x, y], [x + BAR, y], pen);
     for end in [x, x + BAR] {
-        out.line([end, y - 2.0], [end, y + 2.0], pen);
+        let half = SCALE_BAR_HEIGHT / 2.0;
+        out.line([end, y - half], [end, y + half], pen);
     }
     out.text([x + BAR + 3.0, y], BODY, units.measure(BAR * n)).vcenter();
 }

@@ -186,7 +186,7 @@ fn stretched([a, b]: [Point; 2], by: [f64; 2]) -> [Point; 2] {
 }
 
 /// The smallest n of a round scale 1:n that is at least `ratio`.
-fn round_scale(ratio: f64) -> f64 {
+pub(super) fn round_scale(ratio: f64) -> f64 {
     if !(ratio > 0.0 && ratio.is_finite()) {
         return 1.0;
     }

@@ -1,11 +1,17 @@
 //! A small frame for tests: one unit that stands on its rods' ends A.
 
-use crate::chart::SurfacePoint;
+use crate::chart::{Method, PlanarChart, SurfacePoint};
 use crate::frame::axis::Axis;
+use crate::frame::canvas::PlaneCanvas;
 use crate::frame::close::{Joint, close};
+use crate::frame::fit::fit;
+use crate::frame::footprint::{Footprint, footprint};
+use crate::frame::form::{FormSettings, form};
 use crate::frame::{Chirality, Contact, ContactKind, End, Frame, Rod, Support, Unit};
 use crate::ids::{ContactId, Id, IdVec, RodId, UnitId};
-use crate::surface::Vector3;
+use crate::pattern::Pattern;
+use crate::surface::{Vector3, samples::sample, topology::require_disk};
+use crate::tiling::Placement;
 use std::f64::consts::TAU;
 
 /// Radius of the hole, mm.
@@ -95,20 +101,24 @@ fn contact(axes: &IdVec<RodId, Axis>, joint: &Joint) -> Contact {
 
 /// A real frame: 3 mm rods on a sample surface.
 pub(crate) fn on_sample(surface: &str, pattern: &str) -> Frame {
-    use crate::chart::{Method, PlanarChart};
-    use crate::frame::canvas::PlaneCanvas;
-    use crate::frame::fit::fit;
-    use crate::frame::form::{FormSettings, form};
-    use crate::surface::{samples::sample, topology::require_disk};
+    laid_on_sample(surface, pattern, [0.0; 2], 0.0).0
+}
+
+/// The same with its pattern moved and turned, and the plane on which it was laid out.
+pub(crate) fn laid_on_sample(
+    surface: &str,
+    pattern: &str,
+    origin: [f64; 2],
+    rotation: f64,
+) -> (Frame, Footprint) {
     let mesh = sample(surface).unwrap();
     let surface_low = mesh.bounds().unwrap()[0].z;
     let topology = require_disk(&mesh).unwrap();
     let chart = PlanarChart::new(mesh, &topology, Method::Abf).unwrap();
-    let pattern = crate::pattern::Pattern::named(pattern).unwrap();
+    let pattern = Pattern::named(pattern).unwrap();
     let (shape, diameter) = (pattern.usual(), 3.0);
-    let placement =
-        crate::tiling::Placement { origin: Default::default(), rotation: 0.0, edge: 1.0 };
-    let edge = fit(&chart, pattern, &placement, shape, diameter).unwrap().edge;
+    let start = Placement { origin: origin.into(), rotation, edge: 1.0 };
+    let edge = fit(&chart, pattern, &start, shape, diameter).unwrap().edge;
     let settings = FormSettings {
         diameter,
         overhang: OVERHANG,
@@ -116,7 +126,9 @@ pub(crate) fn on_sample(surface: &str, pattern: &str) -> Frame {
         layering: Default::default(),
         surface_low,
     };
-    let placement = crate::tiling::Placement { edge, ..placement };
+    let placement = Placement { edge, ..start };
     let canvas = PlaneCanvas::new(&chart, pattern, placement, shape).unwrap();
-    form(&canvas, &settings).unwrap().frame
+    let formed = form(&canvas, &settings).unwrap();
+    let plane = footprint(&chart, pattern, placement, shape, &formed.tiles).unwrap();
+    (formed.frame, plane)
 }

@@ -86,6 +86,7 @@ fn a_run_writes_every_file_of_the_folder_and_the_same_bytes_twice() {
         "sheets.pdf",
         "support-map.svg",
         "support-map.pdf",
+        "footprint.svg",
         "design.toml",
     ] {
         assert!(first.contains_key(name), "{name} is missing");

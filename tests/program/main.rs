@@ -3,6 +3,7 @@
 mod building;
 mod check;
 mod converting;
+mod footprint;
 mod inspecting;
 mod patterns;
 mod refusals;
