@@ -46,7 +46,7 @@ const TILE_EDGE: Stroke = Stroke::new(0.1).color(Color::grey(0xA8));
 /// The edge of the picture.
 const FRAME: Stroke = Stroke::new(0.15).color(Color::GREY);
 /// Where the pattern starts, on a white ground.
-const START_PEN: Stroke = Stroke::new(0.45).color(Color::VERMILLION);
+const START_PEN: Stroke = Stroke::new(0.5);
 const START_GROUND: Stroke = Stroke::new(1.4).color(Color::WHITE);
 
 /// The footprint on a sheet of its own, as wide as the paper and no higher.

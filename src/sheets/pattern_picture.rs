@@ -47,7 +47,7 @@ const EDGE: Stroke = Stroke::new(0.13).color(Color::grey(0xB4));
 /// The edge of the picture.
 const FRAME: Stroke = Stroke::new(0.15).color(Color::GREY);
 /// Rods of other units.
-const ROD: Color = Color::grey(0x8A);
+const ROD: Color = Color::grey(0x94);
 /// Rods of the unit that is set apart, but for one.
 const UNIT_ROD: Color = Color::BLUE;
 /// One rod of it.
