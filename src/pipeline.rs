@@ -66,38 +66,60 @@ pub enum Step {
 /// [`BuildError`] with what is wrong and what to try.
 pub fn build(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, BuildError> {
     match &design.tiles {
-        Tiles::Pattern(pattern) => on_chart(design, pattern, begin),
+        Tiles::Pattern(pattern) => {
+            let flat = flatten(design, begin)?;
+            lay(design, pattern, &flat, begin)
+        }
         Tiles::Mesh => on_polygons(design, begin),
         Tiles::Sphere(sphere) => on_sphere(design, sphere, begin),
     }
 }
 
-/// A pattern of the plane, laid on the flattened surface.
-fn on_chart(
-    design: &Design,
-    pattern: &Pattern,
-    begin: &mut dyn FnMut(Step),
-) -> Result<Model, BuildError> {
+/// A surface laid flat, to lay patterns on.
+#[derive(Debug)]
+pub struct Flat {
+    /// The way from the plane to the surface.
+    pub chart: PlanarChart,
+    /// What was mended in the surface, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// Reads the surface of a design and lays it flat.
+///
+/// # Errors
+/// [`BuildError`] with what is wrong and what to try.
+pub fn flatten(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Flat, BuildError> {
     begin(Step::Read);
     let reading = read(&design.surface_file)?;
     let Prepared { mesh: surface, notes } =
         prepare(reading, design.up, design.component, design.cut, design.span)?;
     begin(Step::Chart);
     let topology = require_chartable(&surface)?;
-    let chart = PlanarChart::new(surface, &topology, design.chart)?;
+    Ok(Flat { chart: PlanarChart::new(surface, &topology, design.chart)?, notes })
+}
+
+/// Makes the model of a pattern on a surface that is flat, whatever surface and pattern the
+/// design names.
+///
+/// # Errors
+/// [`BuildError`] with what is wrong and what to try.
+pub fn lay(
+    design: &Design,
+    pattern: &Pattern,
+    flat: &Flat,
+    begin: &mut dyn FnMut(Step),
+) -> Result<Model, BuildError> {
     // What goes wrong on an uneven chart goes wrong for that.
-    in_plane(design, pattern, &chart, notes, begin).map_err(|e| match chart.distortion().uneven() {
+    in_plane(design, pattern, flat, begin).map_err(|e| match flat.chart.distortion().uneven() {
         Some(uneven) => BuildError::Uneven { e: Box::new(e), uneven },
         None => e,
     })
 }
 
-/// The same, once the surface is flat.
 fn in_plane(
     design: &Design,
     pattern: &Pattern,
-    chart: &PlanarChart,
-    notes: Vec<String>,
+    Flat { chart, notes }: &Flat,
     begin: &mut dyn FnMut(Step),
 ) -> Result<Model, BuildError> {
     begin(Step::Fit);
@@ -116,7 +138,7 @@ fn in_plane(
         }
     };
     let guide = Guide::Chart { mesh: chart.mesh().clone(), distortion: chart.distortion().clone() };
-    let mut model = finish(design, &canvas, fit, guide, notes, begin)?;
+    let mut model = finish(design, &canvas, fit, guide, notes.clone(), begin)?;
     let tiles = &model.formed.tiles;
     model.footprint = Some(footprint(chart, pattern, place(model.fit.edge), shape, tiles)?);
     Ok(model)

@@ -3,6 +3,8 @@
 mod check;
 mod json;
 mod page;
+mod pictures;
+mod trial;
 
 use super::Failure;
 use super::terminal::{Terminal, print};
@@ -23,8 +25,20 @@ pub struct Args {
     #[arg(long, value_name = "NAME", requires = "what")]
     cycle: Option<String>,
 
+    /// Draw the pattern in the plane
+    #[arg(long, value_name = "FILE.svg", requires = "name", conflicts_with_all = ["json", "check"])]
+    svg: Option<PathBuf>,
+
+    /// Draw all patterns on one page, in the plane and on a dome
+    #[arg(long, value_name = "FILE.svg", group = "what")]
+    gallery: Option<PathBuf>,
+
+    /// Try all patterns on a surface, or on that of a design with its settings, and compare
+    #[arg(long, value_name = "SURFACE", group = "what")]
+    on: Vec<PathBuf>,
+
     /// Print JSON
-    #[arg(long)]
+    #[arg(long, conflicts_with = "gallery")]
     json: bool,
 }
 
@@ -33,7 +47,16 @@ pub fn run(args: &Args, terminal: &Terminal) -> Result<(), Failure> {
     if let Some(file) = &args.check {
         return check::run(file, cycle, args.json, terminal);
     }
+    if let Some(file) = &args.gallery {
+        return pictures::gallery(file);
+    }
+    if !args.on.is_empty() {
+        return trial::run(&args.on, args.json, terminal);
+    }
     let one = args.name.as_deref().map(|name| find(name, cycle)).transpose()?;
+    if let (Some(file), Some(pattern)) = (&args.svg, &one) {
+        return pictures::one(pattern, file);
+    }
     let text = match (&one, args.json) {
         (Some(pattern), true) => json::patterns(std::slice::from_ref(pattern)),
         (Some(pattern), false) => page::about(pattern, terminal),
