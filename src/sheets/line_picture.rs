@@ -30,6 +30,8 @@ const RIM: Stroke = Stroke::new(0.25).color(Color::LIGHT_GREY).round();
 const RIM_STEP: f64 = 0.5;
 /// How light the farthest lines are, 0 black to 255 white.
 const FARTHEST: f64 = 150.0;
+/// Lines that cross this near to the ends of both, as part of them, meet there.
+const SAME_END: f64 = 1e-6;
 /// Coordinates are rounded to this many to the millimetre: a fifth of a printer's dot.
 const STEPS_PER_MM: f64 = 100.0;
 
@@ -146,7 +148,10 @@ fn crossing(a: &Line, b: &Line) -> Option<([f64; 2], f64)> {
     let t = (apart[0] * u[1] - apart[1] * u[0]) / turn;
     // Parallel lines give no number or an infinite one.
     let within = |share: f64| (0.0..=1.0).contains(&share);
-    (within(s) && within(t)).then(|| ([s, t], turn.abs() / (a.length() * b.length())))
+    // Rods that meet end to end do not cross.
+    let at_end = |share: f64| share.min(1.0 - share) < SAME_END;
+    (within(s) && within(t) && !(at_end(s) && at_end(t)))
+        .then(|| ([s, t], turn.abs() / (a.length() * b.length())))
 }
 
 /// The visible stretches as lines, far ones first and lighter.

@@ -50,9 +50,9 @@ fn all_patterns_are_listed_in_lines_that_fit() {
     for pattern in library() {
         let row = page.lines().position(|l| l.split_whitespace().next() == Some(&pattern.name));
         let at = row.unwrap_or_else(|| panic!("{} is not in\n{page}", pattern.name));
-        let turns = format!("{}-{}°", pattern.turn.safe[0], pattern.turn.safe[1]);
+        let turns = format!("{} to {}°", pattern.turn.safe[0], pattern.turn.safe[1]);
         let start: Vec<&str> = page.lines().skip(at).take(4).collect();
-        assert!(start[0].contains(&turns));
+        assert!(start[0].contains(&turns), "{turns}: {}", start[0]);
         let summary: Vec<&str> = pattern.summary.split(' ').take(3).collect();
         assert!(words(start[0]).contains(&summary.join(" ")), "{}", start[0]);
     }

@@ -25,7 +25,7 @@ pub fn list(terminal: &Terminal) -> String {
 fn cells(pattern: &Pattern) -> [String; 3] {
     let rods: Vec<String> = pattern.tiling.polygons().iter().map(usize::to_string).collect();
     let [least, most] = pattern.turn.safe;
-    [pattern.name.clone(), rods.join(" "), format!("{least}-{most}°")]
+    [pattern.name.clone(), rods.join(" "), format!("{least} to {most}°")]
 }
 
 /// Everything about a pattern.

@@ -38,9 +38,10 @@ fn legal(patterns: Vec<&'static Pattern>) -> impl Strategy<Value = (&'static Pat
 /// From the first to the last contact of a rod, or from its free end where that is farther.
 fn extent(weave: &Weave, rod: &WovenRod) -> [Point3; 2] {
     let contact = |c: &ContactId| weave.contacts[*c].on.position;
-    let first =
-        if rod.ends[0] == RodEnd::Free { rod.through[0] } else { contact(&rod.contacts[0]) };
-    [first, contact(rod.contacts.last().expect("every rod has contacts"))]
+    let last = contact(rod.contacts.last().expect("every rod has contacts"));
+    let (first, free) = (contact(&rod.contacts[0]), rod.through[0]);
+    let farther = rod.ends[0] == RodEnd::Free && (free - last).norm() > (first - last).norm();
+    [if farther { free } else { first }, last]
 }
 
 /// How far inside both segments their lines cross, as the least part of either.
