@@ -52,7 +52,7 @@ pub enum ShapeError {
     /// A rod that should rest on a neighbour's misses it.
     #[error(
         "turn = {turn:.4}deg with slide = {slide}: a rod that goes across the edge from {from} into \
-         {into} meets too few of its rods to rest on one{}", instead_of(*.instead)
+         {into} does not come to rest on one of its rods{}", instead_of(*.instead)
     )]
     Rest { turn: f64, slide: f64, from: String, into: String, instead: Option<f64> },
     /// The outer rods make no circuit.
@@ -81,6 +81,10 @@ const SAME: f64 = 1e-5;
 
 /// Least side of a unit's hole, tile edges: at a usual fit two rods wide.
 const LEAST_SIDE: f64 = 0.1;
+
+/// Least distance of two rods that lie side by side, tile edges: at a usual fit a rod's
+/// diameter.
+const LEAST_APART: f64 = 0.05;
 
 /// Steps and bounds in which another slide is looked for, tile edges.
 const SLIDE_STEP: f64 = 0.01;
@@ -201,16 +205,23 @@ fn rests(from: &UnitKind, into: &UnitKind, reach: usize, shape: Shape) -> Result
     let middle = Vector2::new(inradius(from.sides) + inradius(into.sides), 0.0);
     let line = Line { at: (middle - home.at.coords).into(), inward: home.inward };
     let guest = Guest { side: 0, line, reach };
-    match into.figure(join, shape, true).meetings(&[guest]) {
-        Err(Unmet::Guest(_)) => Err(ShapeError::Rest {
-            turn: shape.turn.to_degrees(),
-            slide: shape.slide,
-            from: from.name.clone(),
-            into: into.name.clone(),
-            instead: None,
-        }),
-        _ => Ok(()),
+    let figure = into.figure(join, shape, true);
+    if beside(&line, &figure.outer[0]) && figure.meetings(&[guest]) != Err(Unmet::Guest(0)) {
+        return Ok(());
     }
+    Err(ShapeError::Rest {
+        turn: shape.turn.to_degrees(),
+        slide: shape.slide,
+        from: from.name.clone(),
+        into: into.name.clone(),
+        instead: None,
+    })
+}
+
+/// Whether two rods across one edge do not lie one in the other.
+fn beside(one: &Line, other: &Line) -> bool {
+    let (u, v) = (one.inward.normalize(), other.inward.normalize());
+    u.perp(&v).abs() > SAME || (other.at - one.at).perp(&u).abs() >= LEAST_APART
 }
 
 impl UnitKind {
@@ -232,5 +243,105 @@ impl UnitKind {
         let outer: Vec<Line> = (0..self.sides).map(line).collect();
         let stops = self.stop().map_or_else(Vec::new, |stop| vec![stop; self.sides]);
         Figure { outer, stops, inner: self.inner_rods().collect() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::library;
+
+    fn shape(degrees: f64, slide: f64) -> Shape {
+        Shape { turn: degrees.to_radians(), slide }
+    }
+
+    fn message(name: &str, shape: Shape) -> String {
+        let pattern = Pattern::named(name).expect("in the library");
+        pattern.check(shape).expect_err("out of range").to_string()
+    }
+
+    #[test]
+    fn usual_shapes_and_their_mirror_images_are_safe() {
+        for pattern in library() {
+            let Shape { turn, slide } = pattern.usual();
+            assert_eq!(pattern.check(Shape { turn, slide }), Ok(()), "{}", pattern.name);
+            let mirrored = Shape { turn: -turn, slide: -slide };
+            assert_eq!(pattern.check(mirrored), Ok(()), "{}", pattern.name);
+        }
+    }
+
+    #[test]
+    fn what_is_not_safe_is_said_with_what_is() {
+        for (name, at, words) in [
+            ("4.4.4.4", shape(40.0, 0.0), "holds together between 8 and 36 degrees"),
+            ("4.4.4.4", shape(20.0, 0.2), "holds together between -0.05 and 0.05 tile edges"),
+            ("6.6.6", shape(20.0, 0.1), "its rods do not slide"),
+            ("4.4.4.4", shape(8.0, 0.05), "the holes of every square would be 0.0"),
+            ("large-and-small", shape(-28.0, 0.1), "change the sign of one of them"),
+        ] {
+            let message = message(name, at);
+            assert!(message.contains(words), "{message}");
+        }
+    }
+
+    fn squares(join: &str, figures: &str) -> Pattern {
+        let text = format!(
+            "tiling = \"4.4.4.4\"\n{figures}\n[[units]]\nname = \"square\"\nsides = 4\n\
+             [[rules]]\nunits = [\"square\", \"square\"]\njoin = \"{join}\"\n"
+        );
+        Pattern::parse(&text, "squares").expect("a sound file")
+    }
+
+    #[test]
+    fn ends_that_do_not_meet_are_measured() {
+        let pattern = squares("end", "slide = { usual = 0, safe = [-0.3, 0.3] }");
+        assert_eq!(pattern.check(shape(20.0, 0.0)), Ok(()));
+        let found = pattern.check(shape(20.0, 0.1));
+        assert!(
+            matches!(found, Err(ShapeError::Ends { apart, .. }) if (apart - 0.2).abs() < 1e-12)
+        );
+    }
+
+    /// With slide 0 the rods of two equal neighbours lie in one line, one in the other; a
+    /// slide is named at which they lie side by side.
+    #[test]
+    fn a_slide_is_named_at_which_rods_reach() {
+        let figures = "slide = { usual = 0.12, safe = [0, 0.45] }\n\
+                       turn = { usual = 20, safe = [0, 44] }";
+        let pattern = squares("rest", figures);
+        assert_eq!(pattern.check(shape(22.0, 0.12)), Ok(()));
+        let in_line = pattern.check(shape(22.0, 0.0));
+        let Err(ShapeError::Rest { instead: Some(instead), .. }) = in_line else {
+            panic!("{in_line:?}");
+        };
+        assert!((0.02..0.05).contains(&instead), "{instead}");
+        assert_eq!(pattern.check(shape(22.0, instead)), Ok(()));
+    }
+
+    #[test]
+    fn shared_rods_slide_only_where_tiles_alternate() {
+        let text = "tiling = \"6.6.6\"\nslide = { usual = 0, safe = [-0.3, 0.3] }\n[[units]]\n\
+                    name = \"hexagon\"\nsides = 6\n[[rules]]\nunits = [\"hexagon\", \"hexagon\"]\n\
+                    join = \"shared\"\n";
+        let pattern = Pattern::parse(text, "hexagons").expect("a sound file");
+        assert!(matches!(pattern.check(shape(20.0, 0.1)), Err(ShapeError::Alternate { .. })));
+    }
+
+    /// A rod drawn by hand is shared only when its neighbour draws the same line.
+    #[test]
+    fn rods_that_two_units_draw_differently_are_not_one() {
+        let drawn = |outer: &str| {
+            let text = format!(
+                "tiling = \"4.4.4.4\"\n[[units]]\nname = \"window\"\nsides = 4\nouter = [{outer}]\n\
+                 [[rules]]\nunits = [\"window\", \"window\"]\njoin = \"shared\"\n"
+            );
+            Pattern::parse(&text, "windows").expect("a sound file").check(shape(20.0, 0.0))
+        };
+        // Through the middle of the edge, and beside it.
+        assert_eq!(drawn("[[0.6, 0.03], [-0.25, -0.225]]"), Ok(()));
+        assert!(matches!(
+            drawn("[[0.6, 0.13], [-0.25, -0.125]]"),
+            Err(ShapeError::Shared { apart, .. }) if (apart - 0.2).abs() < 1e-9
+        ));
     }
 }

@@ -7,6 +7,7 @@
 //! overlap in the picture without crossing, such as two in line with the eye; of these
 //! the nearer is drawn last.
 
+use super::band::rounded;
 use super::view::View;
 use crate::drawing::{Color, Draw, Item, Point, Rect, Stroke};
 use crate::frame::Frame;
@@ -32,8 +33,6 @@ const RIM_STEP: f64 = 0.5;
 const FARTHEST: f64 = 150.0;
 /// Lines that cross this near to the ends of both, as part of them, meet there.
 const SAME_END: f64 = 1e-6;
-/// Coordinates are rounded to this many to the millimetre: a fifth of a printer's dot.
-const STEPS_PER_MM: f64 = 100.0;
 
 /// A rod in the picture, mm, y down.
 struct Line {
@@ -175,10 +174,6 @@ fn stretches(lines: &mut [Line], width: f64, out: &mut Vec<Item>) {
         let level = (FARTHEST * (1.0 - nearness)).round() as u8;
         out.line(a, b, Stroke::new(rounded(width)).color(Color::grey(level)));
     }
-}
-
-fn rounded(x: f64) -> f64 {
-    (x * STEPS_PER_MM).round() / STEPS_PER_MM
 }
 
 #[cfg(test)]

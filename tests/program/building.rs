@@ -194,3 +194,20 @@ fn completions_and_manual_name_the_commands() {
         assert!(text.contains("build") && text.contains("inspect"), "{args:?}");
     }
 }
+
+#[test]
+fn rods_slide_on_spheres_whose_tiles_alternate_and_are_refused_elsewhere() {
+    let dir = tempdir().unwrap();
+    let slid = ["build", "sphere:aD", "--span", "1200mm", "--turn", "0", "--slide", "0.2", "-q"];
+    rodwright(dir.path()).args(slid).args(["--only", "structure", "-o", "out"]).assert().success();
+    assert!(check_structure(&structure(&dir.path().join("out"))) >= 60);
+    let units = &structure(&dir.path().join("out"))["units"];
+    let ways =
+        |way: &str| units.as_array().unwrap().iter().filter(|u| u["chirality"] == way).count();
+    assert!(ways("cw") > 10 && ways("ccw") > 10);
+    let refused = ["build", "sphere:dI", "--slide", "0.2", "-o", "none"];
+    let output = rodwright(dir.path()).args(refused).output().unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(message.contains("chessboard") && !dir.path().join("none").exists(), "{message}");
+}

@@ -225,3 +225,44 @@ fn pattern_files_that_cannot_be_built_are_refused() {
         assert!(!dir.path().join("out").exists());
     }
 }
+
+#[test]
+fn patterns_are_drawn_alone_and_together() {
+    let dir = tempdir().unwrap();
+    assert_eq!(patterns(dir.path(), &["da-vinci", "--svg", "one.svg"]).0, 0);
+    let one = std::fs::read_to_string(dir.path().join("one.svg")).unwrap();
+    assert!(one.starts_with("<svg") && one.contains("da-vinci"), "{}", &one[..200]);
+    assert_eq!(patterns(dir.path(), &["--gallery", "all.svg"]).0, 0);
+    let all = std::fs::read_to_string(dir.path().join("all.svg")).unwrap();
+    for pattern in library() {
+        assert!(all.contains(&format!(">{}<", pattern.name)), "{}", pattern.name);
+    }
+    let (status, _, message) = patterns(dir.path(), &["--svg", "one.svg"]);
+    assert_eq!(status, 2, "{message}");
+    let (status, _, _) = patterns(dir.path(), &["da-vinci", "--svg", "none/one.svg"]);
+    assert_eq!(status, 3);
+}
+
+#[test]
+fn all_patterns_are_tried_on_a_surface() {
+    let dir = tempdir().unwrap();
+    let igloo = sample("igloo.obj");
+    let (status, text, message) = patterns(dir.path(), &["--on", &igloo, "--json"]);
+    assert_eq!(status, 0, "{message}");
+    let rows: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let rows = rows.as_array().unwrap();
+    assert_eq!(rows.len(), library().len());
+    for (row, pattern) in rows.iter().zip(library()) {
+        assert_eq!(row["pattern"], *pattern.name);
+        assert!(row["rods"].as_u64().is_some_and(|n| n > 20), "{row}");
+    }
+    // The figures are those of a build.
+    let built = ["build", &igloo, "--pattern", "bug", "--only", "structure", "-o", "out", "-q"];
+    assert_eq!(run(dir.path(), &built).0, 0);
+    let report = std::fs::read(dir.path().join("out/structure.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_slice(&report).unwrap();
+    let bug = rows.iter().find(|r| r["pattern"] == "bug").unwrap();
+    assert_eq!(bug["rods"].as_u64(), report["rods"].as_array().map(|r| r.len() as u64));
+    let (status, _, message) = patterns(dir.path(), &["--on", "none.obj"]);
+    assert_eq!((status, message.contains("none.obj")), (3, true), "{message}");
+}

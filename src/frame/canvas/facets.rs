@@ -309,4 +309,33 @@ mod tests {
         let ring = |face: usize| canvas.rank(TileId::new(face))[0];
         assert_eq!([0, 1, 2, 3, 4, 5].map(ring), [2.0, 0.0, 1.0, 1.0, 1.0, 1.0]);
     }
+
+    /// Squares in a row alternate; slid rods of neighbours cross their edge at one place.
+    #[test]
+    fn slid_rods_cross_an_edge_at_one_place() {
+        let points: IdVec<VertexId, Point3> =
+            (0..8).map(|i| Point3::new(f64::from(i / 2), f64::from(i % 2), 0.0)).collect();
+        let faces = [[0, 2, 3, 1], [2, 4, 5, 3], [4, 6, 7, 5]];
+        let faces = faces.map(|f| f.map(VertexId::new).to_vec());
+        let tiles = MeshTiles::new(&points, &faces);
+        assert!(tiles.alternates());
+        let canvas = tiles.shaped(Shape { turn: 0.0, slide: 0.2 });
+        let mut ways = Vec::new();
+        for tile in canvas.net().tiles.ids() {
+            ways.push(FlatUnit::new(&canvas.lines(tile)).expect("a square").counter_clockwise);
+        }
+        assert_eq!(ways, [ways[0], !ways[0], ways[0]]);
+        for (e, edge) in canvas.net().edges.enumerate() {
+            let Some(right) = edge.right else { continue };
+            let place = |tile: TileId| {
+                let side = canvas.net().tiles[tile].edges.iter().position(|&x| x == e)?;
+                canvas.place(tile, canvas.lines(tile)[side].at).map(|p| p.position)
+            };
+            let (p, q) = (place(edge.left).expect("left"), place(right).expect("right"));
+            assert!((p - q).norm() < 1e-12 && ((p.y - 0.5).abs() - 0.2).abs() < 1e-12);
+        }
+        // Three tiles round a corner cannot alternate.
+        let (points, faces) = brick();
+        assert!(!MeshTiles::new(&points, &faces).alternates());
+    }
 }

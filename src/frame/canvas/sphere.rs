@@ -270,6 +270,30 @@ mod tests {
         }
     }
 
+    /// On tiles that alternate rods slide to one side seen from one colour, to the other seen
+    /// from the other; without a turn neighbours run opposite ways round.
+    #[test]
+    fn slid_rods_are_still_one_seen_from_either_side() {
+        let tiles = tiles("aI", None);
+        assert!(tiles.alternates());
+        let canvas = tiles.shaped(Shape { turn: 0.0, slide: 0.2 });
+        let mut sense = Vec::new();
+        for tile in canvas.net().tiles.ids() {
+            let unit = FlatUnit::new(&canvas.lines(tile)).expect("a unit");
+            sense.push((canvas.net().tiles[tile].corners.len(), unit.counter_clockwise));
+        }
+        let pentagons = sense.iter().find(|(n, _)| *n == 5).map(|(_, s)| *s);
+        assert!(sense.iter().all(|&(n, s)| (Some(s) == pentagons) == (n == 5)));
+        for (e, edge) in canvas.net().edges.enumerate() {
+            let place = |tile: TileId| {
+                let side = canvas.net().tiles[tile].edges.iter().position(|&x| x == e)?;
+                canvas.place(tile, canvas.lines(tile)[side].at)
+            };
+            let (p, q) = (place(edge.left), edge.right.and_then(place));
+            assert!((p.expect("left").position - q.expect("right").position).norm() < 1e-9);
+        }
+    }
+
     #[test]
     fn a_cut_at_the_equator_keeps_the_upper_half() {
         // Octahedron's ambo, the cuboctahedron, has no edge ring at the equator; the
