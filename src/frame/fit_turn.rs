@@ -48,9 +48,7 @@ pub fn safe_turns<C: Canvas>(make: impl Fn(f64) -> C, diameter: f64) -> [f64; 2]
 /// holes of every second unit close or rods meet round the corners. `None` where there is
 /// no room even without a turn.
 pub fn safe_turns_of_slid<C: Canvas>(make: impl Fn(f64) -> C, diameter: f64) -> Option<[f64; 2]> {
-    let roomy = |canvas: &C, tile: TileId| {
-        has_room(&canvas.lines(tile)) && shortest_side(canvas, tile) >= ROOM * diameter
-    };
+    let roomy = |canvas: &C, tile: TileId| shortest_side(canvas, tile) >= ROOM * diameter;
     let safe = |turn: f64| share(&make(turn), &roomy) >= MOST_TILES;
     if !safe(0.0) {
         return None;

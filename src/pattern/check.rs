@@ -2,7 +2,7 @@
 //! should join do.
 
 use super::crossing::inradius;
-use super::{Figure, Guest, Join, Line, Pattern, Rule, Shape, UnitKind, Unmet};
+use super::{Figure, Guest, Join, Line, Member, Pattern, Rule, Shape, UnitKind, Unmet};
 use nalgebra::{Point2, Vector2};
 use std::f64::consts::TAU;
 use thiserror::Error;
@@ -55,9 +55,19 @@ pub enum ShapeError {
          {into} does not come to rest on one of its rods{}", instead_of(*.instead)
     )]
     Rest { turn: f64, slide: f64, from: String, into: String, instead: Option<f64> },
+    /// A rod that touches too few others within its unit.
+    #[error(
+        "unit \"{unit}\": {rod} touches {} within the unit, and needs two to be held. Draw it \
+         across more of them", counted(*.contacts)
+    )]
+    Loose { unit: String, rod: String, contacts: usize },
     /// The outer rods make no circuit.
     #[error("turn = {turn:.4}deg with slide = {slide}: the rods of {unit} run round in no circuit")]
     Circuit { turn: f64, slide: f64, unit: String },
+}
+
+fn counted(contacts: usize) -> &'static str {
+    if contacts == 0 { "no other rod" } else { "one other rod" }
 }
 
 fn slides([least, most]: &[f64; 2]) -> String {
@@ -175,18 +185,32 @@ impl Pattern {
                 }
             }
         }
-        [a, b].into_iter().try_for_each(|kind| holes(kind, rule.join, shape))
+        [a, b].into_iter().try_for_each(|kind| sound(kind, rule.join, shape))
     }
 }
 
-/// Whether the outer rods of a unit, of either colour, run round a hole that is wide enough.
-fn holes(kind: &UnitKind, join: Join, shape: Shape) -> Result<(), ShapeError> {
+/// Whether every rod of a unit, of either colour, is held, and the outer ones run round a
+/// hole that is wide enough.
+fn sound(kind: &UnitKind, join: Join, shape: Shape) -> Result<(), ShapeError> {
     let (turn, slide, unit) = (shape.turn.to_degrees(), shape.slide, kind.name.clone());
     for even in [true, false] {
         let figure = kind.figure(join, shape, even);
         let Ok(meetings) = figure.meetings(&[]) else {
             return Err(ShapeError::Circuit { turn, slide, unit });
         };
+        let loose = |member: Member| {
+            let count = meetings.all.iter().filter(|m| m.ending == member || m.passing == member);
+            Some(count.count()).filter(|&n| n < 2).map(|n| (member, n))
+        };
+        let members =
+            (0..kind.sides).map(Member::Outer).chain((0..figure.inner.len()).map(Member::Inner));
+        if let Some((member, contacts)) = members.filter_map(loose).next() {
+            let rod = match member {
+                Member::Inner(i) => format!("inner rod {}", i + 1),
+                Member::Outer(i) | Member::Guest(i) => format!("outer rod {}", i + 1),
+            };
+            return Err(ShapeError::Loose { unit, rod, contacts });
+        }
         if let [first, second, ..] = &meetings.all[..meetings.circuit] {
             let side = (first.at - second.at).norm();
             if side < LEAST_SIDE - SAME {
@@ -337,6 +361,10 @@ mod tests {
             );
             Pattern::parse(&text, "windows").expect("a sound file").check(shape(20.0, 0.0))
         };
+        assert!(matches!(
+            drawn("[[0.6, 0.0], [0.2, 0.0]]"),
+            Err(ShapeError::Loose { contacts: 0, .. })
+        ));
         // Through the middle of the edge, and beside it.
         assert_eq!(drawn("[[0.6, 0.03], [-0.25, -0.225]]"), Ok(()));
         assert!(matches!(
