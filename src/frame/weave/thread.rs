@@ -29,6 +29,15 @@ struct Course {
     seats: Vec<Seat>,
 }
 
+/// A weave that is being made.
+struct Loom<'a, C> {
+    canvas: &'a C,
+    placed: &'a IdVec<UnitId, Placed>,
+    unit_of: &'a IdVec<TileId, Option<UnitId>>,
+    weave: Weave,
+    courses: IdVec<RodId, Course>,
+}
+
 /// Makes the weave of tiles that are placed; `unit_of` tells which unit a tile hosts.
 ///
 /// # Errors
@@ -38,182 +47,163 @@ pub(super) fn thread(
     placed: &IdVec<UnitId, Placed>,
     unit_of: &IdVec<TileId, Option<UnitId>>,
 ) -> Result<Weave, Vec<Unweavable>> {
-    let mut weave = Weave::default();
-    let mut courses = IdVec::default();
-    add_rods(canvas, placed, unit_of, &mut weave, &mut courses);
-    add_contacts(canvas, placed, unit_of, &mut weave, &mut courses);
-    join_ends(canvas, placed, &mut weave, &mut courses);
-    run(canvas, placed, &mut weave, &mut courses)?;
-    Ok(weave)
+    let (weave, courses) = (Weave::default(), IdVec::default());
+    let mut loom = Loom { canvas, placed, unit_of, weave, courses };
+    loom.add_rods();
+    loom.add_contacts();
+    loom.join_ends();
+    loom.run()
 }
 
-/// Makes the rods and the units, without contacts.
-fn add_rods(
-    canvas: &impl Canvas,
-    placed: &IdVec<UnitId, Placed>,
-    unit_of: &IdVec<TileId, Option<UnitId>>,
-    weave: &mut Weave,
-    courses: &mut IdVec<RodId, Course>,
-) {
-    let net = canvas.net();
-    let mut shared: IdVec<TileEdgeId, Option<RodId>> = vec![None; net.edges.len()].into();
-    for (unit, placed) in placed.enumerate() {
-        let tile = placed.tile;
-        let mut rods = Vec::with_capacity(placed.lines.len() + placed.inner);
-        for (&edge, line) in net.tiles[tile].edges.iter().zip(&placed.lines) {
-            let here = (tile, line.at);
-            if let Some(known) = shared[edge] {
-                courses[known].crossing.push(here);
-                rods.push(known);
+impl<C: Canvas> Loom<'_, C> {
+    /// Makes the rods and the units, without contacts.
+    fn add_rods(&mut self) {
+        let (canvas, net) = (self.canvas, self.canvas.net());
+        let mut shared: IdVec<TileEdgeId, Option<RodId>> = vec![None; net.edges.len()].into();
+        for (unit, placed) in self.placed.enumerate() {
+            let tile = placed.tile;
+            let mut rods = Vec::with_capacity(placed.lines.len() + placed.inner);
+            for (&edge, line) in net.tiles[tile].edges.iter().zip(&placed.lines) {
+                let here = (tile, line.at);
+                if let Some(known) = shared[edge] {
+                    self.courses[known].crossing.push(here);
+                    rods.push(known);
+                    continue;
+                }
+                let beyond = net.across(edge, tile).and_then(|t| self.unit_of[t]);
+                let (units, at_a) = match (beyond, canvas.join(edge)) {
+                    (None, _) => (vec![unit], RodEnd::Free),
+                    (Some(_), Join::End) => (vec![unit], RodEnd::Meets),
+                    (Some(_), Join::Rest { .. }) => (vec![unit], RodEnd::Rests),
+                    (Some(other), Join::Shared) => {
+                        let left = net.edges[edge].left == tile;
+                        (if left { vec![unit, other] } else { vec![other, unit] }, RodEnd::Rests)
+                    }
+                };
+                let is_shared = units.len() == 2;
+                self.courses.push(Course { crossing: vec![here], seats: Vec::new() });
+                let rod = self.weave.rods.push(new_rod(units, at_a));
+                shared[edge] = is_shared.then_some(rod);
+                rods.push(rod);
+            }
+            for _ in 0..placed.inner {
+                self.courses.push(Course { crossing: Vec::new(), seats: Vec::new() });
+                rods.push(self.weave.rods.push(new_rod(vec![unit], RodEnd::Rests)));
+            }
+            let chirality = if placed.meetings.counter_clockwise {
+                Chirality::CounterClockwise
+            } else {
+                Chirality::Clockwise
+            };
+            let (center, contacts) = (placed.center, Vec::new());
+            let sides = placed.lines.len();
+            self.weave.units.push(WovenUnit { tile, center, chirality, sides, rods, contacts });
+        }
+    }
+
+    /// Makes the contacts that lie in the tiles.
+    fn add_contacts(&mut self) {
+        let net = self.canvas.net();
+        for (unit, placed) in self.placed.enumerate() {
+            let tile = placed.tile;
+            for (meeting, &on) in placed.meetings.all.iter().zip(&placed.on) {
+                if let Some(side) = meeting.on_side()
+                    && net.edges[net.tiles[tile].edges[side]].left != tile
+                {
+                    continue;
+                }
+                let rod = |member| match member {
+                    Member::Outer(i) => Some(self.weave.units[unit].rods[i]),
+                    Member::Inner(i) => Some(self.weave.units[unit].rods[placed.lines.len() + i]),
+                    Member::Guest(side) => {
+                        let edge = net.tiles[tile].edges[side];
+                        let home = net.across(edge, tile)?;
+                        let side = net.tiles[home].edges.iter().position(|&e| e == edge)?;
+                        Some(self.weave.units[self.unit_of[home]?].rods[side])
+                    }
+                };
+                let (Some(ending), Some(passing)) = (rod(meeting.ending), rod(meeting.passing))
+                else {
+                    unreachable!("guests come from tiles that host a unit")
+                };
+                let kind = ContactKind::Cross;
+                let contact =
+                    self.weave.contacts.push(WovenContact { kind, ending, passing, unit, on });
+                self.weave.units[unit].contacts.push(contact);
+                let members = [meeting.ending, meeting.passing];
+                for ((rod, member), along) in
+                    [ending, passing].into_iter().zip(members).zip(meeting.along)
+                {
+                    // End B of a shared rod is in its second unit, that of others in their own.
+                    let units = &self.weave.rods[rod].units;
+                    let towards_b = match member {
+                        Member::Guest(_) => false,
+                        Member::Inner(_) => true,
+                        Member::Outer(_) => units.last() == Some(&unit),
+                    };
+                    if let Member::Guest(side) = member {
+                        let guest = placed.guests.iter().find(|g| g.side == side);
+                        self.courses[rod].crossing.extend(guest.map(|g| (tile, g.line.at)));
+                    }
+                    let along = if towards_b { along } else { -along };
+                    self.courses[rod].seats.push(Seat { along, contact, tile, at: meeting.at });
+                }
+            }
+        }
+    }
+
+    /// Makes the contacts of rods that meet end to end, at their ends A.
+    fn join_ends(&mut self) {
+        let (canvas, net) = (self.canvas, self.canvas.net());
+        let mut first: IdVec<TileEdgeId, Option<RodId>> = vec![None; net.edges.len()].into();
+        for (unit, placed) in self.placed.enumerate() {
+            for (i, &edge) in net.tiles[placed.tile].edges.iter().enumerate() {
+                let rod = self.weave.units[unit].rods[i];
+                if self.weave.rods[rod].ends[0] != RodEnd::Meets {
+                    continue;
+                }
+                let Some(other) = first[edge].replace(rod) else { continue };
+                let (tile, at) = (placed.tile, placed.lines[i].at);
+                let Some(on) = canvas.place(tile, at) else { continue };
+                let kind = ContactKind::End([End::A; 2]);
+                let joined = WovenContact { kind, ending: other, passing: rod, unit, on };
+                let contact = self.weave.contacts.push(joined);
+                self.weave.units[unit].contacts.push(contact);
+                for rod in [other, rod] {
+                    self.courses[rod].seats.push(Seat { along: 0.0, contact, tile, at });
+                }
+            }
+        }
+    }
+
+    /// Puts the contacts of every rod in order, and finds the two places through which it
+    /// runs.
+    fn run(mut self) -> Result<Weave, Vec<Unweavable>> {
+        let mut failed = Vec::new();
+        for (rod, course) in self.weave.rods.iter_mut().zip(self.courses.iter_mut()) {
+            course.seats.sort_by(|p, q| p.along.total_cmp(&q.along));
+            rod.contacts = course.seats.iter().map(|s| s.contact).collect();
+            let fault = |reason| Unweavable { tile: self.placed[rod.units[0]].tile, reason };
+            if course.seats.len() < 2 {
+                failed.push(fault("one of its rods touches fewer than two others"));
                 continue;
             }
-            let beyond = net.across(edge, tile).and_then(|t| unit_of[t]);
-            let (units, at_a) = match (beyond, canvas.join(edge)) {
-                (None, _) => (vec![unit], RodEnd::Free),
-                (Some(_), Join::End) => (vec![unit], RodEnd::Meets),
-                (Some(_), Join::Rest { .. }) => (vec![unit], RodEnd::Rests),
-                (Some(other), Join::Shared) => {
-                    let left = net.edges[edge].left == tile;
-                    (if left { vec![unit, other] } else { vec![other, unit] }, RodEnd::Rests)
-                }
+            let place = |end| {
+                let (tile, at) = place_of(course, rod.ends, end);
+                self.canvas.place(tile, at).map(|p| p.position)
             };
-            let is_shared = units.len() == 2;
-            courses.push(Course { crossing: vec![here], seats: Vec::new() });
-            let rod = weave.rods.push(new_rod(units, at_a));
-            shared[edge] = is_shared.then_some(rod);
-            rods.push(rod);
+            match (place(0), place(1)) {
+                (Some(a), Some(b)) => rod.through = [a, b],
+                _ => failed.push(fault("reaches beyond the surface")),
+            }
         }
-        for _ in 0..placed.inner {
-            courses.push(Course { crossing: Vec::new(), seats: Vec::new() });
-            rods.push(weave.rods.push(new_rod(vec![unit], RodEnd::Rests)));
-        }
-        let chirality = if placed.meetings.counter_clockwise {
-            Chirality::CounterClockwise
-        } else {
-            Chirality::Clockwise
-        };
-        let (center, contacts) = (placed.center, Vec::new());
-        let sides = placed.lines.len();
-        weave.units.push(WovenUnit { tile, center, chirality, sides, rods, contacts });
+        if failed.is_empty() { Ok(self.weave) } else { Err(failed) }
     }
 }
 
 fn new_rod(units: Vec<UnitId>, at_a: RodEnd) -> WovenRod {
     let through = [Point3::origin(); 2];
     WovenRod { units, ends: [at_a, RodEnd::Rests], through, contacts: Vec::new() }
-}
-
-/// Makes the contacts that lie in the tiles.
-fn add_contacts(
-    canvas: &impl Canvas,
-    placed: &IdVec<UnitId, Placed>,
-    unit_of: &IdVec<TileId, Option<UnitId>>,
-    weave: &mut Weave,
-    courses: &mut IdVec<RodId, Course>,
-) {
-    let net = canvas.net();
-    for (unit, placed) in placed.enumerate() {
-        let tile = placed.tile;
-        for (meeting, &on) in placed.meetings.all.iter().zip(&placed.on) {
-            if let Some(side) = meeting.on_side()
-                && net.edges[net.tiles[tile].edges[side]].left != tile
-            {
-                continue;
-            }
-            let rod = |member| match member {
-                Member::Outer(i) => Some(weave.units[unit].rods[i]),
-                Member::Inner(i) => Some(weave.units[unit].rods[placed.lines.len() + i]),
-                Member::Guest(side) => {
-                    let edge = net.tiles[tile].edges[side];
-                    let home = net.across(edge, tile)?;
-                    let side = net.tiles[home].edges.iter().position(|&e| e == edge)?;
-                    Some(weave.units[unit_of[home]?].rods[side])
-                }
-            };
-            let (Some(ending), Some(passing)) = (rod(meeting.ending), rod(meeting.passing)) else {
-                unreachable!("guests come from tiles that host a unit")
-            };
-            let kind = ContactKind::Cross;
-            let contact = weave.contacts.push(WovenContact { kind, ending, passing, unit, on });
-            weave.units[unit].contacts.push(contact);
-            let members = [meeting.ending, meeting.passing];
-            for ((rod, member), along) in
-                [ending, passing].into_iter().zip(members).zip(meeting.along)
-            {
-                // End B of a shared rod is in its second unit, that of others in their own.
-                let units = &weave.rods[rod].units;
-                let towards_b = match member {
-                    Member::Guest(_) => false,
-                    Member::Inner(_) => true,
-                    Member::Outer(_) => units.last() == Some(&unit),
-                };
-                if let Member::Guest(side) = member {
-                    let guest = placed.guests.iter().find(|g| g.side == side);
-                    courses[rod].crossing.extend(guest.map(|g| (tile, g.line.at)));
-                }
-                let along = if towards_b { along } else { -along };
-                courses[rod].seats.push(Seat { along, contact, tile, at: meeting.at });
-            }
-        }
-    }
-}
-
-/// Makes the contacts of rods that meet end to end, at their ends A.
-fn join_ends(
-    canvas: &impl Canvas,
-    placed: &IdVec<UnitId, Placed>,
-    weave: &mut Weave,
-    courses: &mut IdVec<RodId, Course>,
-) {
-    let net = canvas.net();
-    let mut first: IdVec<TileEdgeId, Option<RodId>> = vec![None; net.edges.len()].into();
-    for (unit, placed) in placed.enumerate() {
-        for (i, &edge) in net.tiles[placed.tile].edges.iter().enumerate() {
-            let rod = weave.units[unit].rods[i];
-            if weave.rods[rod].ends[0] != RodEnd::Meets {
-                continue;
-            }
-            let Some(other) = first[edge].replace(rod) else { continue };
-            let (tile, at) = (placed.tile, placed.lines[i].at);
-            let Some(on) = canvas.place(tile, at) else { continue };
-            let kind = ContactKind::End([End::A; 2]);
-            let joined = WovenContact { kind, ending: other, passing: rod, unit, on };
-            let contact = weave.contacts.push(joined);
-            weave.units[unit].contacts.push(contact);
-            for rod in [other, rod] {
-                courses[rod].seats.push(Seat { along: 0.0, contact, tile, at });
-            }
-        }
-    }
-}
-
-/// Puts the contacts of every rod in order, and finds the two places through which it
-/// runs.
-fn run(
-    canvas: &impl Canvas,
-    placed: &IdVec<UnitId, Placed>,
-    weave: &mut Weave,
-    courses: &mut IdVec<RodId, Course>,
-) -> Result<(), Vec<Unweavable>> {
-    let mut failed = Vec::new();
-    for (rod, course) in weave.rods.iter_mut().zip(courses.iter_mut()) {
-        course.seats.sort_by(|p, q| p.along.total_cmp(&q.along));
-        rod.contacts = course.seats.iter().map(|s| s.contact).collect();
-        let fault = |reason| Unweavable { tile: placed[rod.units[0]].tile, reason };
-        if course.seats.len() < 2 {
-            failed.push(fault("one of its rods touches fewer than two others"));
-            continue;
-        }
-        let place = |end| {
-            let (tile, at) = place_of(course, rod.ends, end);
-            canvas.place(tile, at).map(|p| p.position)
-        };
-        match (place(0), place(1)) {
-            (Some(a), Some(b)) => rod.through = [a, b],
-            _ => failed.push(fault("reaches beyond the surface")),
-        }
-    }
-    if failed.is_empty() { Ok(()) } else { Err(failed) }
 }
 
 /// Part of the way between its two contacts, from either end, at which a rod that rests
