@@ -11,10 +11,7 @@ use thiserror::Error;
 #[derive(Error, Clone, PartialEq, Debug)]
 pub enum ShapeError {
     /// The turn is not safe.
-    #[error(
-        "turn = {turn:.4}deg: the pattern {pattern} holds together between {} and {} degrees, \
-         either way round", safe[0], safe[1]
-    )]
+    #[error("turn = {turn:.4}deg: the pattern {pattern} {}", turns(safe))]
     Turn { pattern: String, turn: f64, safe: [f64; 2] },
     /// The slide is not safe.
     #[error("slide = {slide}: the pattern {pattern} {}", slides(safe))]
@@ -68,6 +65,16 @@ pub enum ShapeError {
 
 fn counted(contacts: usize) -> &'static str {
     if contacts == 0 { "no other rod" } else { "one other rod" }
+}
+
+fn turns([least, most]: &[f64; 2]) -> String {
+    if least == most {
+        "stays as it is: its units have a radius of their own, or are drawn by hand. Leave --turn \
+         out"
+        .into()
+    } else {
+        format!("holds together between {least} and {most} degrees, either way round")
+    }
 }
 
 fn slides([least, most]: &[f64; 2]) -> String {
@@ -302,6 +309,7 @@ mod tests {
             ("6.6.6", shape(20.0, 0.1), "its rods do not slide"),
             ("4.4.4.4", shape(8.0, 0.05), "the holes of every square would be 0.0"),
             ("large-and-small", shape(-28.0, 0.1), "change the sign of one of them"),
+            ("basket-end-to-end", shape(24.0, 0.0), "its units have a radius of their own"),
         ] {
             let message = message(name, at);
             assert!(message.contains(words), "{message}");

@@ -45,6 +45,12 @@ impl Draft {
         all_in_use(&kinds, &rules)?;
         of_one_turn(&kinds, &rules)?;
         let figures = file.figures()?;
+        if figures[0].is_some() && never_turned(&kinds) {
+            let problem = "it turns nothing: every unit has its radius or is drawn by hand. Leave \
+                           it out"
+                .into();
+            return Err(PatternError::Figure { key: "turn", problem });
+        }
         let allowed = check(&kinds, &rules)?;
         Ok(Self { kinds, rules, allowed, file, figures })
     }
@@ -67,7 +73,7 @@ impl Draft {
             name: self.file.name.unwrap_or_else(|| name.to_owned()),
             summary: self.file.summary.unwrap_or_else(|| plain_summary(own)),
             source: self.file.source.unwrap_or_default(),
-            turn: turn.unwrap_or_else(|| usual_turn(own)),
+            turn: turn.unwrap_or_else(|| usual_turn(&self.kinds, own)),
             slide: slide.unwrap_or(STILL),
             tiling: own,
             kinds: self.kinds,
@@ -121,7 +127,8 @@ impl Pattern {
         }
         let name = format!("{} as {}", self.name, tiling.name);
         let summary = plain_summary(tiling);
-        Self { name, summary, tiling, turn: usual_turn(tiling), slide: STILL, ..self }
+        let turn = usual_turn(&self.kinds, tiling);
+        Self { name, summary, tiling, turn, slide: STILL, ..self }
     }
 }
 
@@ -136,8 +143,11 @@ fn plain_summary(tiling: &UniformTiling) -> String {
 }
 
 /// Turns that are safe on a tiling, as far as its vertices tell: the more tiles there are
-/// round one, the sooner rods meet there.
-fn usual_turn(tiling: &UniformTiling) -> Parameter {
+/// round one, the sooner rods meet there. Where no unit is turned, only its sign matters.
+fn usual_turn(kinds: &[UnitKind], tiling: &UniformTiling) -> Parameter {
+    if never_turned(kinds) {
+        return Parameter { usual: USUAL_TURN, safe: [USUAL_TURN; 2] };
+    }
     let triangles = tiling.polygons().contains(&3);
     let most = match tiling.configurations().map(|c| c.len()).max() {
         Some(0..=3) => 44.0,
@@ -145,6 +155,11 @@ fn usual_turn(tiling: &UniformTiling) -> Parameter {
         _ => 24.0,
     };
     Parameter { usual: USUAL_TURN, safe: [8.0, most] }
+}
+
+/// Whether a turn would change no unit: each has its radius, or is drawn by hand.
+fn never_turned(kinds: &[UnitKind]) -> bool {
+    kinds.iter().all(|k| k.radius.is_some() || !k.outer.is_empty())
 }
 
 /// A unit that no rule names would never be laid.

@@ -65,6 +65,14 @@ pub struct Parameter {
     pub safe: [f64; 2],
 }
 
+impl Parameter {
+    /// Whether there is but one value.
+    pub fn is_fixed(&self) -> bool {
+        let [least, most] = self.safe;
+        least == most
+    }
+}
+
 /// A kind of unit.
 #[derive(Clone, PartialEq, Debug)]
 pub struct UnitKind {

@@ -48,11 +48,12 @@ fn all_patterns_are_listed_in_lines_that_fit() {
     assert!(page.lines().all(|line| line.chars().count() <= 80), "{page}");
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     for pattern in library() {
-        let starts =
-            |l: &str| l.contains('°') && l.split_whitespace().next() == Some(&pattern.name);
+        let first = |l: &str| l.split_whitespace().next() == Some(&pattern.name);
+        let starts = |l: &str| (l.contains('°') || l.contains("fixed")) && first(l);
         let row = page.lines().position(starts);
         let at = row.unwrap_or_else(|| panic!("{} is not in\n{page}", pattern.name));
-        let turns = format!("{} to {}°", pattern.turn.safe[0], pattern.turn.safe[1]);
+        let [least, most] = pattern.turn.safe;
+        let turns = if least == most { "fixed".into() } else { format!("{least} to {most}°") };
         let start: Vec<&str> = page.lines().skip(at).take(4).collect();
         assert!(start[0].contains(&turns), "{turns}: {}", start[0]);
         let summary: Vec<&str> = pattern.summary.split(' ').take(3).collect();

@@ -25,7 +25,9 @@ pub fn list(terminal: &Terminal) -> String {
 fn cells(pattern: &Pattern) -> [String; 3] {
     let rods: Vec<String> = pattern.tiling.polygons().iter().map(usize::to_string).collect();
     let [least, most] = pattern.turn.safe;
-    [pattern.name.clone(), rods.join(" "), format!("{least} to {most}°")]
+    let turns =
+        if pattern.turn.is_fixed() { "fixed".into() } else { format!("{least} to {most}°") };
+    [pattern.name.clone(), rods.join(" "), turns]
 }
 
 /// Everything about a pattern.
@@ -36,7 +38,7 @@ pub fn about(pattern: &Pattern, terminal: &Terminal) -> String {
         ("looks like", pattern.summary.clone()),
         ("source", pattern.source.clone()),
         ("tiling", pattern.tiling.name.to_owned()),
-        ("turn", format!("{}, either way round", figure(pattern.turn, "°"))),
+        ("turn", turn(pattern.turn)),
         ("slide", figure(pattern.slide, " tile edges")),
     ];
     for (label, text) in figures.iter().filter(|(_, text)| !text.is_empty()) {
@@ -54,10 +56,18 @@ pub fn about(pattern: &Pattern, terminal: &Terminal) -> String {
     page.text
 }
 
+fn turn(turn: Parameter) -> String {
+    if turn.is_fixed() {
+        "fixed by the radius of the units, either way round".into()
+    } else {
+        format!("{}, either way round", figure(turn, "°"))
+    }
+}
+
 /// A figure and where it is safe.
 fn figure(figure: Parameter, unit: &str) -> String {
     let Parameter { usual, safe: [least, most] } = figure;
-    if least == most {
+    if figure.is_fixed() {
         return format!("{usual}{unit}");
     }
     format!("{usual}{unit}, safe from {least} to {most}{unit}")
