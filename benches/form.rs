@@ -6,9 +6,10 @@
 
 use rodwright::chart::{Method, PlanarChart};
 use rodwright::frame::canvas::PlaneCanvas;
-use rodwright::frame::close::{Joint, close};
+use rodwright::frame::close::close;
 use rodwright::frame::fit::{Fit, fit};
 use rodwright::frame::form::{FormSettings, form};
+use rodwright::frame::gaps::Joint;
 use rodwright::frame::layer::Layering;
 use rodwright::frame::{
     crop::{crop, held},

@@ -1,9 +1,9 @@
 //! Puts the finished frame together from its parts.
 
 use super::axis::Axis;
-use super::close::Joint;
 use super::cut::{crossings, seats};
 use super::fault::Fault;
+use super::gaps::Joint;
 use super::weave::{RodEnd, Weave};
 use super::{Contact, Frame, Rod, Support, Unit};
 use crate::ids::{ContactId, IdVec, RodId};

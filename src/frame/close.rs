@@ -1,38 +1,18 @@
 //! Makes every contact exact: the axes of its rods end up exactly one gap apart.
 //!
-//! The gap of a contact is g = (P − Q)·n, with P and Q the nearest points of the
-//! two axes and n the unit vector across both, outwards. Moving the ends of the
-//! rods changes it, to first order, by n weighted with where P lies between the
-//! ends of its rod: the change of n itself drops out. Each Newton step makes the
-//! least move of all ends that meets the linearised gaps, dx = Jᵀ (J Jᵀ)⁻¹ r,
-//! with one sparse Cholesky factorisation. It converges quadratically.
-//!
-//! Where two ends meet, the three coordinates of their distance are such gaps.
+//! Each Newton step makes the least move of all ends that meets the linearised gaps,
+//! dx = Jᵀ (J Jᵀ)⁻¹ r, with J of [`gaps`](super::gaps) and one sparse Cholesky
+//! factorisation. It converges quadratically.
 //!
 //! Sliding a rod along itself changes no gap of a crossing, so no step does it but for
 //! ends that meet.
 
 use super::axis::Axis;
-use super::{ContactKind, End};
+use super::gaps::{Incidence, Joint, Row, incidence, product, rows};
 use crate::ids::{ContactId, IdVec, RodId};
 use crate::linalg::{LinalgError, SpdSolver, block_entries};
 use crate::surface::Vector3;
 use serde::Serialize;
-
-/// A contact to be closed.
-#[derive(Clone, Debug)]
-pub struct Joint {
-    /// The rod on the outer side.
-    pub over: RodId,
-    /// The rod below.
-    pub under: RodId,
-    /// The outer side of the surface.
-    pub outward: Vector3,
-    /// Where one crosses over the other the wanted distance of the axes, mm.
-    pub diameter: f64,
-    /// How they touch.
-    pub kind: ContactKind,
-}
 
 /// What closing took.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
@@ -80,7 +60,7 @@ pub fn close(
     axes: &mut IdVec<RodId, Axis>,
     joints: &IdVec<ContactId, Joint>,
 ) -> Result<Closing, CloseError> {
-    let mut rows = rows(axes, joints)?;
+    let mut rows = equations(axes, joints)?;
     let incidence = incidence(axes.len(), &rows);
     let mut entries = Vec::new();
     for around in &incidence {
@@ -101,96 +81,24 @@ pub fn close(
         last = error;
         values.clear();
         for around in &incidence {
-            values.extend(block_entries(around.len()).map(|(i, j)| {
-                let [p, q] = [around[i], around[j]].map(|i| rows[i.row].at_rod(i.over));
-                p.normal.dot(&q.normal) * (p.at_a * q.at_a + p.at_b * q.at_b)
-            }));
+            values.extend(
+                block_entries(around.len()).map(|(i, j)| product(&rows, around[i], around[j])),
+            );
         }
         solver.factor(&values).map_err(CloseError::Linear)?;
         let mut pull: Vec<f64> = rows.iter().map(|row| row.wanted - row.gap).collect();
         solver.solve(&mut pull);
         step_ends(axes, &incidence, &rows, &pull);
-        rows = self::rows(axes, joints)?;
+        rows = equations(axes, joints)?;
     }
     unreachable!("the last round of the loop returns")
 }
 
-/// A row as one of its rods meets it.
-#[derive(Clone, Copy)]
-struct Incidence {
-    row: usize,
-    over: bool,
-}
-
-fn incidence(rods: usize, rows: &[Row]) -> IdVec<RodId, Vec<Incidence>> {
-    let mut around: IdVec<RodId, Vec<Incidence>> = vec![Vec::new(); rods].into();
-    for (row, Row { rods: [over, under], .. }) in rows.iter().enumerate() {
-        around[*over].push(Incidence { row, over: true });
-        around[*under].push(Incidence { row, over: false });
-    }
-    around
-}
-
-/// One equation: a gap, and its gradient. A crossing has one, ends that meet have one for
-/// each axis of space.
-struct Row {
-    contact: ContactId,
-    /// The over rod and the under rod.
-    rods: [RodId; 2],
-    gap: f64,
-    wanted: f64,
-    /// What errors are measured by: the rod diameter.
-    diameter: f64,
-    across: Vector3,
-    /// Where the contact lies between the ends of its two rods, 0 at A and 1 at B.
-    at: [f64; 2],
-}
-
-/// The gradient with respect to the ends of one rod: `normal` times the weights.
-struct RodRow {
-    normal: Vector3,
-    at_a: f64,
-    at_b: f64,
-}
-
-impl Row {
-    fn at_rod(&self, over: bool) -> RodRow {
-        let (sign, t) = if over { (1.0, self.at[0]) } else { (-1.0, self.at[1]) };
-        RodRow { normal: self.across * sign, at_a: 1.0 - t, at_b: t }
-    }
-
-    /// The error of the gap, as part of the diameter.
-    fn error(&self) -> f64 {
-        (self.gap - self.wanted).abs() / self.diameter
-    }
-}
-
-/// The equations of all joints, in their order.
-fn rows(
+fn equations(
     axes: &IdVec<RodId, Axis>,
     joints: &IdVec<ContactId, Joint>,
 ) -> Result<Vec<Row>, CloseError> {
-    let mut rows = Vec::with_capacity(joints.len());
-    for (contact, &Joint { over, under, outward, diameter, kind }) in joints.enumerate() {
-        let (rods, [first, second]) = ([over, under], [&axes[over], &axes[under]]);
-        match kind {
-            ContactKind::Cross => {
-                let x = first.cross(second, &outward).ok_or(CloseError::Parallel(contact))?;
-                let at = [x.at_first / first.length(), x.at_second / second.length()];
-                let (gap, across, wanted) = (x.rise, x.across, diameter);
-                rows.push(Row { contact, rods, gap, wanted, diameter, across, at });
-            }
-            ContactKind::End(ends) => {
-                let at = ends.map(|end| if end == End::A { 0.0 } else { 1.0 });
-                let apart = first.end(ends[0]) - second.end(ends[1]);
-                for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
-                    let (gap, across, wanted) = (apart.dot(&axis), axis, 0.0);
-                    rows.push(Row { contact, rods, gap, wanted, diameter, across, at });
-                }
-            }
-        }
-    }
-    Ok(rows)
+    rows(axes, joints).map_err(CloseError::Parallel)
 }
 
 /// The contacts whose gaps are still wrong.
@@ -240,34 +148,9 @@ fn step_ends(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::frame::gaps::circuit;
+    use crate::frame::{ContactKind, End};
     use crate::ids::Id;
-    use std::f64::consts::TAU;
-
-    /// N rods on the ground in a closed circuit, all through nearly one height.
-    fn circuit(n: usize, diameter: f64) -> (IdVec<RodId, Axis>, IdVec<ContactId, Joint>) {
-        let axes = (0..n)
-            .map(|i| {
-                let (sin, cos) = (TAU * i as f64 / n as f64).sin_cos();
-                let (out, along) = (Vector3::new(cos, sin, 0.0), Vector3::new(-sin, cos, 0.0));
-                let middle = out * 20.0 + Vector3::z() * (i as f64 * 0.01);
-                let tilt = Vector3::z() * 0.1;
-                Axis {
-                    a: (middle - along * 60.0 - tilt).into(),
-                    b: (middle + along * 60.0 + tilt).into(),
-                }
-            })
-            .collect();
-        let joints = (0..n)
-            .map(|i| Joint {
-                over: RodId::new(i),
-                under: RodId::new((i + 1) % n),
-                outward: Vector3::z(),
-                diameter,
-                kind: ContactKind::Cross,
-            })
-            .collect();
-        (axes, joints)
-    }
 
     #[test]
     fn circuits_close_exactly() {
@@ -278,31 +161,6 @@ mod tests {
             for joint in &joints {
                 let x = axes[joint.over].cross(&axes[joint.under], &joint.outward).unwrap();
                 assert!((x.rise - 3.0).abs() < 1e-11, "{n}: {}", x.rise);
-            }
-        }
-    }
-
-    /// The gradient of a gap against central differences.
-    #[test]
-    fn gradients_agree_with_finite_differences() {
-        let (axes, joints) = circuit(4, 3.0);
-        let base = rows(&axes, &joints).unwrap();
-        let h = 1e-5;
-        for (id, joint) in joints.enumerate() {
-            for (rod, over) in [(joint.over, true), (joint.under, false)] {
-                let row = base[id.index()].at_rod(over);
-                for axis in 0..3 {
-                    for (end, weight) in [(0, row.at_a), (1, row.at_b)] {
-                        let gaps = [h, -h].map(|h| {
-                            let mut moved = axes.clone();
-                            let end = if end == 0 { &mut moved[rod].a } else { &mut moved[rod].b };
-                            end[axis] += h;
-                            rows(&moved, &joints).unwrap()[id.index()].gap
-                        });
-                        let numeric = (gaps[0] - gaps[1]) / (2.0 * h);
-                        assert!((numeric - row.normal[axis] * weight).abs() < 1e-7);
-                    }
-                }
             }
         }
     }

@@ -3,8 +3,8 @@
 
 use super::ContactKind;
 use super::axis::{Axis, Crossing};
-use super::close::Joint;
 use super::fault::Fault;
+use super::gaps::Joint;
 use super::weave::{RodEnd, Weave};
 use crate::ids::{ContactId, IdVec, RodId};
 

@@ -5,10 +5,11 @@ use super::assemble::{Ground, assemble};
 use super::axis::Axis;
 use super::canvas::{Canvas, Sizing};
 use super::clash::clashes;
-use super::close::{CloseError, Closing, Joint, close};
+use super::close::{CloseError, Closing, close};
 use super::crop::{crop, held};
 use super::cut::{crossings, cut, disorder, seats};
 use super::fault::{Fault, cover};
+use super::gaps::Joint;
 use super::layer::{Layering, layer};
 use super::lift::{Parallel, lift};
 use super::stand::{Standing, ground_level, stand};
@@ -253,7 +254,12 @@ fn close_and_finish(
         }
     };
     let rises = lifted.rises(weave);
-    let joints = joints(weave, &layer(&rises, settings.layering), settings.diameter);
+    let resting = joints(weave, &rises.iter().map(|_| true).collect(), settings.diameter);
+    let over = match layer(&lifted.axes, &resting, &rises, settings.layering) {
+        Ok(over) => over,
+        Err(c) => return Ok(Err(vec![open_contact(weave, c)])),
+    };
+    let joints = joints(weave, &over, settings.diameter);
     let mut axes = lifted.axes.clone();
     let closing = match close(&mut axes, &joints) {
         Ok(closing) => closing,

@@ -1,27 +1,181 @@
 //! Which rod of each contact goes over the other (paper, section 4.2 and Fig. 4).
+//!
+//! Where the surface is curved, the rises decide. Where it is flat or saddle-shaped they
+//! are near zero, and the choice is free: the paper leaves it at that. Here contacts are
+//! then turned over, one at a time, while the [cost](flip) falls: the least squared move of
+//! rod ends that meets all contacts. This is done on overlapping [patches]; on each,
+//! contacts outside it count as free, so its cost is a lower bound.
 
-use crate::ids::{ContactId, IdVec};
+mod flip;
+mod patches;
+
+use super::axis::Axis;
+use super::gaps::{Incidence, Joint, Row, incidence, product, rows};
+use crate::ids::{ContactId, IdVec, RodId};
+use flip::Choice;
+use nalgebra::DMatrix;
+use patches::{Patch, patches};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// The rule by which over and under are chosen.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Layering {
-    /// The rod that lies higher after the lift goes over: the frame follows the surface.
+    /// As follow where the surface is curved; elsewhere so that the rods move least
+    Auto,
+    /// The rod that lies higher on the surface goes over
     #[default]
     Follow,
-    /// Every rod ends on top of the next one, all round every unit.
+    /// Every rod ends on top of the next one, all round every unit
     Reciprocal,
 }
 
-/// For every contact, whether the ending rod goes over the passing one; `rises`
-/// holds the height of the ending rod over the passing one, mm, and none where ends meet.
-pub fn layer(rises: &IdVec<ContactId, Option<f64>>, rule: Layering) -> IdVec<ContactId, bool> {
-    rises
-        .iter()
-        .map(|&rise| match rule {
-            Layering::Follow => rise.is_none_or(|rise| rise >= 0.0),
-            Layering::Reciprocal => true,
-        })
-        .collect()
+/// Rises of more than this, in diameters, decide by their sign. Against such a rise a
+/// contact has to be moved by 1.5 diameters or more, three times as far as with it. A
+/// larger bound would free contacts of curved surfaces, a smaller one bind those of saddles.
+const CLEAR: f64 = 0.5;
+
+/// Rises below this, in diameters, are rounding of a flat surface.
+const FLAT: f64 = 1e-6;
+
+/// The most contacts that a patch decides on.
+const CORE: usize = 150;
+
+/// Rings of contacts round them that it takes into account.
+const RINGS: usize = 3;
+
+/// Times that all patches are gone through: patches agree after two or three.
+const SWEEPS: usize = 12;
+
+/// For every contact, whether the ending rod goes over the passing one. The axes run from
+/// contact to contact, and each joint is given with its ending rod over; `rises` holds
+/// the height of the ending rod over the passing one, mm, and none where ends meet.
+///
+/// # Errors
+/// A contact whose rods are parallel.
+pub fn layer(
+    axes: &IdVec<RodId, Axis>,
+    joints: &IdVec<ContactId, Joint>,
+    rises: &IdVec<ContactId, Option<f64>>,
+    rule: Layering,
+) -> Result<IdVec<ContactId, bool>, ContactId> {
+    match rule {
+        Layering::Auto => auto(axes, joints, [CORE, RINGS]),
+        Layering::Follow => Ok(rises.iter().map(|r| r.is_none_or(|rise| rise >= 0.0)).collect()),
+        Layering::Reciprocal => Ok(rises.iter().map(|_| true).collect()),
+    }
+}
+
+/// The equations of all contacts, and the choice so far.
+struct System {
+    rows: Vec<Row>,
+    /// The rows of each rod.
+    around: IdVec<RodId, Vec<Incidence>>,
+    /// The first row of each contact.
+    first: IdVec<ContactId, usize>,
+    /// +1 or −1 for every row.
+    signs: Vec<f64>,
+    /// Rows whose sign is free.
+    free: Vec<bool>,
+}
+
+fn auto(
+    axes: &IdVec<RodId, Axis>,
+    joints: &IdVec<ContactId, Joint>,
+    [core, rings]: [usize; 2],
+) -> Result<IdVec<ContactId, bool>, ContactId> {
+    let mut system = System::new(axes, joints)?;
+    let rods_of = joints.iter().map(|j| [j.over, j.under]).collect();
+    let mut patches = patches(&rods_of, axes.len(), core, rings);
+    patches.retain(|p| p.core.iter().any(|&c| system.free[system.first[c]]));
+    // When each contact was last turned over, and each patch last seen to.
+    let mut turned: IdVec<ContactId, usize> = vec![1; joints.len()].into();
+    let mut seen = vec![0; patches.len()];
+    let mut now = 1;
+    for _ in 0..SWEEPS {
+        let before = now;
+        for (patch, seen) in patches.iter().zip(&mut seen) {
+            if patch.core.iter().chain(&patch.rim).all(|&c| turned[c] <= *seen) {
+                continue;
+            }
+            now += 1;
+            for contact in system.settle(patch) {
+                turned[contact] = now;
+            }
+            *seen = now;
+        }
+        if now == before {
+            break;
+        }
+    }
+    Ok(joints.ids().map(|c| system.signs[system.first[c]] > 0.0).collect())
+}
+
+impl System {
+    fn new(axes: &IdVec<RodId, Axis>, joints: &IdVec<ContactId, Joint>) -> Result<Self, ContactId> {
+        let rows = rows(axes, joints)?;
+        let mut first: IdVec<ContactId, usize> = vec![0; joints.len()].into();
+        for (i, row) in rows.iter().enumerate().rev() {
+            first[row.contact] = i;
+        }
+        let start = |row: &Row| if row.gap < -FLAT * row.diameter { -1.0 } else { 1.0 };
+        let signs = rows.iter().map(|r| if crosses(r) { start(r) } else { 1.0 }).collect();
+        let free = rows.iter().map(|r| crosses(r) && r.gap.abs() <= CLEAR * r.diameter).collect();
+        Ok(Self { around: incidence(axes.len(), &rows), rows, first, signs, free })
+    }
+
+    /// Chooses in the core of a patch; the contacts that were turned over.
+    fn settle(&mut self, patch: &Patch) -> Vec<ContactId> {
+        let Some((places, mut choice)) = self.choice(patch) else { return Vec::new() };
+        let core = |&i: &usize| patch.core.contains(&self.rows[places[i]].contact);
+        let free: Vec<usize> =
+            (0..places.len()).filter(|&i| self.free[places[i]]).filter(core).collect();
+        choice.settle(&free);
+        let mut turned = Vec::new();
+        for i in free {
+            let row = places[i];
+            if self.signs[row] != choice.sign(i) {
+                self.signs[row] = choice.sign(i);
+                turned.push(self.rows[row].contact);
+            }
+        }
+        turned
+    }
+
+    /// The rows of a patch and the choice on them; none where they contradict each other,
+    /// as closing will find.
+    fn choice(&self, patch: &Patch) -> Option<(Vec<usize>, Choice)> {
+        let of = |&c: &ContactId| (self.first[c]..).take_while(move |&i| self.is_of(i, c));
+        let places: Vec<usize> = patch.core.iter().chain(&patch.rim).flat_map(of).collect();
+        let order: BTreeMap<usize, usize> =
+            places.iter().enumerate().map(|(i, &row)| (row, i)).collect();
+        let mut k = DMatrix::zeros(places.len(), places.len());
+        for (i, &row) in places.iter().enumerate() {
+            for (rod, over) in self.rows[row].rods.into_iter().zip([true, false]) {
+                for &other in &self.around[rod] {
+                    if let Some(&j) = order.get(&other.row) {
+                        k[(i, j)] += product(&self.rows, Incidence { row, over }, other);
+                    }
+                }
+            }
+        }
+        let signs: Vec<f64> = places.iter().map(|&row| self.signs[row]).collect();
+        let residual = places.iter().zip(&signs).map(|(&row, sign)| {
+            let row = &self.rows[row];
+            sign * row.wanted - row.gap
+        });
+        let diameter = self.rows[*places.first()?].diameter;
+        let residual = residual.collect();
+        Some((places, Choice::new(k, signs, residual, diameter)?))
+    }
+
+    fn is_of(&self, row: usize, contact: ContactId) -> bool {
+        self.rows.get(row).is_some_and(|r| r.contact == contact)
+    }
+}
+
+/// Whether a row is of a crossing: where ends meet, no gap is wanted.
+fn crosses(row: &Row) -> bool {
+    row.wanted > 0.0
 }

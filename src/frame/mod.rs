@@ -14,6 +14,7 @@ pub mod fit;
 pub mod fit_turn;
 pub mod footprint;
 pub mod form;
+pub mod gaps;
 pub mod guide;
 pub mod layer;
 pub mod lift;

@@ -3,10 +3,11 @@
 use crate::chart::{Method, PlanarChart, SurfacePoint};
 use crate::frame::axis::Axis;
 use crate::frame::canvas::PlaneCanvas;
-use crate::frame::close::{Joint, close};
+use crate::frame::close::close;
 use crate::frame::fit::fit;
 use crate::frame::footprint::{Footprint, footprint};
 use crate::frame::form::{FormSettings, form};
+use crate::frame::gaps::Joint;
 use crate::frame::{Chirality, Contact, ContactKind, End, Frame, Rod, Support, Unit};
 use crate::ids::{ContactId, Id, IdVec, RodId, UnitId};
 use crate::pattern::Pattern;
