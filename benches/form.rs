@@ -91,7 +91,7 @@ fn row(chart: &PlanarChart, diameter: f64) {
         diameter,
         overhang: 2.0 * diameter,
         round: 0.5,
-        layering: Layering::Follow,
+        layering: Layering::Auto,
         surface_low: 0.0,
     };
     let (all_time, _) = least(|| form(&canvas, &settings));

@@ -3,6 +3,7 @@
 use crate::design::{Design, Part};
 use crate::drawing::pdf::{self, DocumentInfo, Page};
 use crate::drawing::{DrawingError, svg};
+use crate::frame::arrangement::arrangement;
 use crate::pipeline::Model;
 use crate::sheets::{Sheet, SheetError, SheetSettings, footprint, pictures, sheets, support_map};
 use crate::shop::lengths::classes;
@@ -69,6 +70,7 @@ impl Files {
 }
 
 fn report(design: &Design, model: &Model) -> Report {
+    let (arrangement, tied) = report::arrangement(&arrangement(&model.formed));
     Report {
         model: design.name(),
         pattern: design.tiles.name(),
@@ -78,6 +80,8 @@ fn report(design: &Design, model: &Model) -> Report {
         fit: report::fit(&model.fit),
         closing: model.formed.closing,
         measures: model.measures.clone(),
+        arrangement,
+        tied,
         sawing: report::sawing(&model.plan),
         dropped: report::dropped(&model.formed.frame),
     }

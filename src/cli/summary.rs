@@ -2,6 +2,7 @@
 
 use super::terminal::Terminal;
 use crate::design::Design;
+use crate::frame::arrangement::arrangement;
 use crate::frame::fit::FitBy;
 use crate::pipeline::Model;
 use std::fmt::Write as _;
@@ -31,6 +32,7 @@ pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) 
         ),
         ("to buy", format!("{}, {:.1} % waste ({optimal})", buy.join(" + "), 100.0 * plan.waste())),
         ("contacts", format!("{}, worst error {:.1e} of the diameter", m.contacts, m.worst_gap)),
+        ("to be tied", to_be_tied(model)),
         ("on the ground", format!("{} rods", m.supports)),
         ("unit", unit(model)),
         (
@@ -64,6 +66,14 @@ fn unit(model: &Model) -> String {
         FitBy::Plain => "plain: the surface is too flat for the rods to decide".into(),
     };
     format!("tile edge {:.1} mm, {how}", fit.edge)
+}
+
+fn to_be_tied(model: &Model) -> String {
+    match arrangement(&model.formed).tied.len() {
+        0 => "nothing: every rod lies on the one it ends at".into(),
+        1 => "1 contact, where the end of a rod hangs below the other".into(),
+        n => format!("{n} contacts, where the end of a rod hangs below the other"),
+    }
 }
 
 fn left_out(model: &Model) -> String {

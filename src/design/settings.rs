@@ -85,7 +85,7 @@ pub struct Settings {
     #[arg(long, value_name = "LENGTH")]
     pub overhang: Option<Length>,
 
-    /// Who goes over: by the surface, or each rod on top of the next [default: follow]
+    /// Which rod goes over where two cross [default: auto]
     #[arg(long, value_enum)]
     pub layer: Option<Layering>,
 

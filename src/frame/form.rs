@@ -46,6 +46,8 @@ pub struct Formed {
     pub closing: Closing,
     /// How far each end of each rod moved in it, mm.
     pub moves: Vec<f64>,
+    /// Whether the ending rod of each contact goes over the passing one; true where ends meet.
+    pub ending_over: IdVec<ContactId, bool>,
     /// Rise of every crossing before closing, mm.
     pub rises: IdVec<ContactId, Option<f64>>,
 }
@@ -117,9 +119,25 @@ const REACH: f64 = 1.5;
 
 /// Builds a frame on a canvas.
 ///
+/// Where [`Layering::Auto`] leaves units out, [`Layering::Follow`] is tried too, and the one
+/// that leaves out fewer is taken: the least move may bring rods near each other.
+///
 /// # Errors
 /// [`FormError`] when too few units fit, or too many fail.
 pub fn form(canvas: &impl Canvas, settings: &FormSettings) -> Result<Formed, FormError> {
+    let formed = form_layered(canvas, settings);
+    let lost = |made: &Result<Formed, FormError>| {
+        made.as_ref().map_or(usize::MAX, |formed| formed.frame.dropped.len())
+    };
+    if settings.layering != Layering::Auto || lost(&formed) == 0 {
+        return formed;
+    }
+    let follow = FormSettings { layering: Layering::Follow, ..*settings };
+    let following = form_layered(canvas, &follow);
+    if lost(&following) < lost(&formed) { following } else { formed }
+}
+
+fn form_layered(canvas: &impl Canvas, settings: &FormSettings) -> Result<Formed, FormError> {
     let mut held = held(canvas);
     let mut dropped: Vec<Dropped> = Vec::new();
     let mut total = None;
@@ -280,6 +298,7 @@ fn close_and_finish(
         tiles: weave.units.iter().map(|unit| unit.tile).collect(),
         closing,
         moves,
+        ending_over: over,
         rises,
     }))
 }

@@ -23,18 +23,18 @@ use std::collections::BTreeMap;
 #[serde(rename_all = "lowercase")]
 pub enum Layering {
     /// As follow where the surface is curved; elsewhere so that the rods move least
+    #[default]
     Auto,
     /// The rod that lies higher on the surface goes over
-    #[default]
     Follow,
     /// Every rod ends on top of the next one, all round every unit
     Reciprocal,
 }
 
 /// Rises of more than this, in diameters, decide by their sign. Against such a rise a
-/// contact has to be moved by 1.5 diameters or more, three times as far as with it. A
-/// larger bound would free contacts of curved surfaces, a smaller one bind those of saddles.
-const CLEAR: f64 = 0.5;
+/// contact has to be moved by 1.25 diameters or more, with it by at most 0.75. At 0.5,
+/// contacts on the flanks of vaults are turned over too, and the largest move grows.
+const CLEAR: f64 = 0.25;
 
 /// Rises below this, in diameters, are rounding of a flat surface.
 const FLAT: f64 = 1e-6;
@@ -179,3 +179,6 @@ impl System {
 fn crosses(row: &Row) -> bool {
     row.wanted > 0.0
 }
+
+#[cfg(test)]
+mod tests;

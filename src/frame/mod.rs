@@ -2,6 +2,7 @@
 //! form. One file a step, in the order of [`form`](form::form): crop, weave, lift,
 //! layer, close, cut, stand, and the measures of the result.
 
+pub mod arrangement;
 pub mod assemble;
 pub mod axis;
 pub mod canvas;

@@ -3,6 +3,7 @@
 
 use crate::chart::Method;
 use crate::frame::Frame;
+use crate::frame::arrangement::Arrangement;
 use crate::frame::close::Closing;
 use crate::frame::fit::{Fit, FitBy};
 use crate::frame::guide::Guide;
@@ -21,6 +22,9 @@ pub struct Report {
     pub fit: Fitted,
     pub closing: Closing,
     pub measures: Measures,
+    pub arrangement: UnitCounts,
+    /// Contacts that gravity would open: the end of a rod that hangs below the other rod.
+    pub tied: Vec<String>,
     pub sawing: Sawing,
     pub dropped: Vec<DroppedUnit>,
 }
@@ -86,6 +90,17 @@ pub struct Fitted {
     pub median_rise: f64,
 }
 
+/// Units by who goes over in them; those without a circuit are not counted.
+#[derive(Clone, Debug, Serialize)]
+pub struct UnitCounts {
+    /// Every rod ends on top of the next.
+    pub all_over: usize,
+    /// Every rod ends below the next.
+    pub all_under: usize,
+    /// Some do, and some do not.
+    pub mixed: usize,
+}
+
 /// The sawing plan.
 #[derive(Clone, Debug, Serialize)]
 pub struct Sawing {
@@ -134,6 +149,13 @@ pub fn fit(fit: &Fit) -> Fitted {
         FitBy::Plain => "plain",
     };
     Fitted { edge: fit.edge, by, median_rise: fit.rise }
+}
+
+/// The arrangement's parts of the report: the units, and the contacts to be tied.
+pub fn arrangement(found: &Arrangement) -> (UnitCounts, Vec<String>) {
+    let Arrangement { over, under, mixed, ref tied } = *found;
+    let units = UnitCounts { all_over: over, all_under: under, mixed };
+    (units, tied.iter().map(ToString::to_string).collect())
 }
 
 /// The sawing plan's part of the report.

@@ -30,6 +30,12 @@ pub struct Choice {
 /// sum indefinite then, and no move that matters is as weak as this.
 const DIAGONAL: f64 = 1e-9;
 
+/// What a turn has to save, in squared diameters: as much as moving one rod end by a
+/// diameter. A rod turned to end below another may have to be tied there; with less, some
+/// contacts of vaults are turned though the rods move hardly any less. With more, flat
+/// sheets rise more.
+const GAIN: f64 = 1.0;
+
 /// Changes of the cost that differ by less, in squared diameters, count as equal, so that
 /// ties on regular patterns do not hang on rounding.
 const TIE: f64 = 1e-6;
@@ -76,12 +82,12 @@ impl Choice {
         self.signs[i] = -self.signs[i];
     }
 
-    /// Turns over the row among `free` that lowers the cost most, until none does. Each
-    /// turn lowers the cost by [`TIE`] or more, so this ends.
+    /// Turns over the row among `free` that lowers the cost most, until none lowers it by
+    /// [`GAIN`]; so this ends.
     pub fn settle(&mut self, free: &[usize]) {
-        let tie = TIE * self.diameter * self.diameter;
+        let [gain, tie] = [GAIN, TIE].map(|part| part * self.diameter * self.diameter);
         loop {
-            let mut best = (-tie, None);
+            let mut best = (-gain, None);
             for &i in free {
                 let change = self.change(i);
                 if change < best.0 - if best.1.is_some() { tie } else { 0.0 } {
@@ -136,13 +142,13 @@ mod tests {
         }
 
         #[test]
-        fn the_cost_falls_until_no_single_flip_lowers_it((k, signs, rises) in system(8)) {
+        fn the_cost_falls_until_no_single_flip_saves_enough((k, signs, rises) in system(8)) {
             let mut now = choice(&k, &signs, &rises, 1.0);
             let before = now.cost();
             let free = [0, 1, 2, 4, 5, 7];
             now.settle(&free);
             prop_assert!(now.cost() <= before + 1e-9);
-            prop_assert!(free.iter().all(|&i| now.change(i) > -2.0 * TIE));
+            prop_assert!(free.iter().all(|&i| now.change(i) >= -GAIN - 1e-9));
             prop_assert_eq!([now.sign(3), now.sign(6)], [signs[3], signs[6]]);
         }
     }
