@@ -94,6 +94,12 @@ pub enum FormError {
         first: String,
         advice: &'static str,
     },
+    /// Rods have more contacts than they can meet.
+    #[error(
+        "{contacts} contacts are more than {rods} straight rods can meet at once. Use a pattern \
+         whose rods touch fewer others (join, reach, inner)"
+    )]
+    TooManyContacts { contacts: usize, rods: usize },
     /// A linear system could not be solved.
     #[error("the contacts could not be closed: {0}")]
     Linear(#[from] LinalgError),
@@ -206,6 +212,16 @@ fn too_many(
     }
 }
 
+/// Contacts for each rod from which contradictions are put down to their number. A straight
+/// line has four freedoms, so four could be met, but for what neighbours already hold.
+const CROWDED: usize = 3;
+
+/// Why the equations of the contacts have no solution.
+fn unsolved(weave: &Weave, e: LinalgError) -> FormError {
+    let (contacts, rods) = (weave.contacts.len(), weave.rods.len());
+    if contacts > CROWDED * rods { FormError::TooManyContacts { contacts, rods } } else { e.into() }
+}
+
 /// Refuses units whose contacts lie nearer together than the rods are thick, where
 /// they are too many to be left out.
 fn require_room(
@@ -281,7 +297,7 @@ fn close_and_finish(
     let mut axes = lifted.axes.clone();
     let closing = match close(&mut axes, &joints) {
         Ok(closing) => closing,
-        Err(CloseError::Linear(e)) => return Err(e.into()),
+        Err(CloseError::Linear(e)) => return Err(unsolved(weave, e)),
         Err(CloseError::Parallel(c)) => return Ok(Err(vec![open_contact(weave, c)])),
         Err(CloseError::Diverged { open }) => {
             return Ok(Err(open.into_iter().map(|c| open_contact(weave, c)).collect()));

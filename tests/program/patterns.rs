@@ -269,3 +269,18 @@ fn all_patterns_are_tried_on_a_surface() {
     let (status, _, message) = patterns(dir.path(), &["--on", "none.obj"]);
     assert_eq!((status, message.contains("none.obj")), (3, true), "{message}");
 }
+
+#[test]
+fn rods_that_reach_too_far_are_refused_with_the_reason() {
+    let dir = tempdir().unwrap();
+    let text = "tiling = \"4.4.4.4\"\nslide = { usual = 0.1, safe = [0, 0.3] }\n[[units]]\n\
+                name = \"square\"\nsides = 4\n[[rules]]\nunits = [\"square\", \"square\"]\n\
+                join = \"rest\"\nreach = 2\n";
+    std::fs::write(dir.path().join("far.toml"), text).unwrap();
+    let igloo = sample("igloo.obj");
+    let (status, _, message) =
+        run(dir.path(), &["build", &igloo, "--pattern", "far.toml", "-o", "out"]);
+    assert_eq!(status, 1);
+    assert!(message.contains("straight rods can meet at once"), "{message}");
+    assert!(!dir.path().join("out").exists());
+}
