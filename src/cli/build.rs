@@ -8,6 +8,7 @@ use crate::design::{Design, Folders, Settings};
 use crate::documents;
 use crate::frame::fit::{Fit, FitBy};
 use crate::frame::guide::Guide;
+use crate::frame::layer::Layering;
 use crate::pipeline::{self, Model, Step, UNEVEN_ADVICE};
 use crate::write::folder::{FolderError, OutputFolder};
 use std::path::{Path, PathBuf};
@@ -105,10 +106,11 @@ fn ill_fitting(design: &Design, fit: &Fit) -> Option<String> {
     };
     let ratio = design.rod / fit.rise;
     if ratio > FLAT {
-        return Some(
+        // There the choice of who goes over keeps the frame on the surface.
+        return (design.layer != Layering::Auto).then(|| {
             "the surface is too flat to lift the rods over each other: the frame will stand off it"
-                .into(),
-        );
+                .into()
+        });
     }
     if (1.0 / ILL_FITTING..=ILL_FITTING).contains(&ratio) {
         return None;

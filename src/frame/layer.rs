@@ -45,7 +45,8 @@ const CORE: usize = 150;
 /// Rings of contacts round them that it takes into account.
 const RINGS: usize = 3;
 
-/// Times that all patches are gone through: patches agree after two or three.
+/// The most times that all patches are gone through; patches whose contacts were left as
+/// they are since are passed over.
 const SWEEPS: usize = 12;
 
 /// For every contact, whether the ending rod goes over the passing one. The axes run from

@@ -96,7 +96,7 @@ fn settings_out_of_bounds_are_named() {
         (&["--rod", "0.001mm", "--unit", "0.01mm"], 1, "larger units"),
         (&["--unit", "2m"], 1, "--unit"),
         (&["--unit", "7mm"], 1, "an edge of at least 1"),
-        (&["--unit", "20mm"], 1, "--unit"),
+        (&["--unit", "12mm"], 1, "--unit"),
         (&["--stock", "50mm"], 1, "R0"),
         (&["--origin", "1mm"], 1, "origin"),
         (&["--paper", "napkin"], 2, "a4"),
