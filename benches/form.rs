@@ -6,7 +6,7 @@
 
 use rodwright::chart::{Method, PlanarChart};
 use rodwright::frame::canvas::PlaneCanvas;
-use rodwright::frame::close::close;
+use rodwright::frame::close::{Way, project};
 use rodwright::frame::fit::{Fit, fit};
 use rodwright::frame::form::{FormSettings, form};
 use rodwright::frame::gaps::Joint;
@@ -86,12 +86,13 @@ fn row(chart: &PlanarChart, diameter: f64) {
             kind: c.kind,
         })
         .collect();
-    let (close_time, closing) = least(|| close(&mut lifted.axes.clone(), &joints));
+    let (close_time, closing) = least(|| project(&mut lifted.axes.clone(), &joints));
     let settings = FormSettings {
         diameter,
         overhang: 2.0 * diameter,
         round: 0.5,
         layering: Layering::Auto,
+        way: Way::default(),
         surface_low: 0.0,
     };
     let (all_time, _) = least(|| form(&canvas, &settings));

@@ -194,6 +194,7 @@ fn finish(
         overhang: design.overhang,
         round: design.round,
         layering: design.layer,
+        way: design.close,
         surface_low: guide.low(),
     };
     let formed = form(canvas, &settings).map_err(|e| unsuited(e, &fit))?;

@@ -31,7 +31,7 @@
 use super::ChartError;
 use super::sheet::Sheet;
 use crate::ids::{Id, VertexId};
-use crate::linalg::{LowerPattern, PairSolver};
+use crate::linalg::{BlockSolver, LowerPattern};
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3, Vector6};
 use std::f64::consts::{PI, TAU};
 
@@ -110,7 +110,7 @@ struct AbfSolver<'a> {
     angles: Vec<[f64; 3]>,
     /// Those of the step before: at each inner vertex of the sum, then of the lengths.
     multipliers: Vec<f64>,
-    solver: PairSolver,
+    solver: BlockSolver<2>,
 }
 
 /// What a step asks for at the triangles of the surface; those of holes may drift.
@@ -160,7 +160,7 @@ impl<'a> AbfSolver<'a> {
                 (i != RIM && j != RIM).then_some((i as usize, j as usize))
             })
         });
-        let solver = PairSolver::new(LowerPattern::new(inner_count, pairs)?)?;
+        let solver = BlockSolver::new(LowerPattern::new(inner_count, pairs)?)?;
         let target = scaled_targets(sheet);
         // The targets agree round vertices; the start in triangles. From targets, an angle
         // that scaling brings near π begins as a fold that no step opens.
@@ -213,7 +213,7 @@ impl<'a> AbfSolver<'a> {
                 }
                 for (l, &other) in nodes[..=k].iter().enumerate().filter(|(_, n)| **n != RIM) {
                     let part = block.fixed_view::<2, 2>(2 * k, 2 * l).into_owned();
-                    self.solver.add(node, other as usize, part);
+                    self.solver.add(node, other as usize, &part);
                 }
             }
         }

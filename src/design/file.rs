@@ -17,6 +17,7 @@ impl Design {
         self.tile_settings(&mut file, fit);
         file.set("overhang", mm(self.overhang));
         file.set("layer", choice(self.layer));
+        file.set("close", choice(self.close));
         if self.stock.is_empty() {
             let lengths: Vec<String> = found_stock.iter().map(|&l| mm(l)).collect();
             file.note(&format!("stock was chosen to hold the longest rod: {}", lengths.join(", ")));

@@ -12,6 +12,7 @@ pub use resolve::Folders;
 pub use settings::Settings;
 
 use crate::chart::Method;
+use crate::frame::close::Way;
 use crate::frame::layer::Layering;
 use crate::pattern::{Pattern, PatternError, ShapeError};
 use crate::sheets::{Paper, PaperUnits};
@@ -137,6 +138,8 @@ pub struct Design {
     pub overhang: f64,
     /// Who goes over.
     pub layer: Layering,
+    /// How contacts are closed.
+    pub close: Way,
     /// The file's up axis, if given.
     pub up: Option<Up>,
     /// Stock lengths; empty to choose one.

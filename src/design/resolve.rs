@@ -54,6 +54,7 @@ impl Settings {
             rotate: self.rotate.map_or(0.0, Angle::radians),
             overhang: not_negative("overhang", self.overhang)?.unwrap_or(2.0 * rod),
             layer: self.layer.unwrap_or_default(),
+            close: self.close.unwrap_or_default(),
             up: self.up,
             stock: stock(self.stock.as_deref())?,
             kerf: not_negative("kerf", self.kerf)?.unwrap_or(DEFAULT_KERF),

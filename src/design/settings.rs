@@ -2,6 +2,7 @@
 
 use super::{DesignError, Part};
 use crate::chart::Method;
+use crate::frame::close::Way;
 use crate::frame::layer::Layering;
 use crate::sheets::{Paper, PaperUnits};
 use crate::surface::component::Component;
@@ -89,6 +90,11 @@ pub struct Settings {
     #[arg(long, value_enum)]
     pub layer: Option<Layering>,
 
+    /// How contacts are made exact: with units kept in shape, by the least move, or as the
+    /// paper does, which only comes near [default: shape]
+    #[arg(long, value_enum)]
+    pub close: Option<Way>,
+
     /// The axis of the file that points up [default: z; y for glTF]
     #[arg(long, value_name = "AXIS")]
     pub up: Option<Up>,
@@ -152,6 +158,7 @@ impl Settings {
             rotate: self.rotate.or(other.rotate),
             overhang: self.overhang.or(other.overhang),
             layer: self.layer.or(other.layer),
+            close: self.close.or(other.close),
             up: self.up.or(other.up),
             stock: self.stock.or(other.stock),
             kerf: self.kerf.or(other.kerf),

@@ -56,6 +56,7 @@ mod tests {
     use super::*;
     use crate::frame::canvas::PlaneCanvas;
     use crate::frame::canvas::fixture::Sheet;
+    use crate::frame::close::Way;
     use crate::frame::form::{FormSettings, form};
     use crate::frame::layer::Layering;
     use crate::ids::Id;
@@ -72,6 +73,7 @@ mod tests {
             overhang: 0.05,
             round: 0.0,
             layering,
+            way: Way::default(),
             surface_low: -9.0,
         };
         form(&canvas, &settings).unwrap()

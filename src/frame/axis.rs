@@ -85,9 +85,22 @@ impl Axis {
         })
     }
 
-    /// The distance between two axes as segments, mm (Ericson, *Real-Time Collision
-    /// Detection*, 5.1.9).
+    /// The point half-way between the nearest points of two axes as infinite lines; `None`
+    /// when they are parallel.
+    pub fn middle(&self, other: &Self, outward: &Vector3) -> Option<Point3> {
+        let x = self.cross(other, outward)?;
+        Some(nalgebra::center(&self.at(x.at_first), &other.at(x.at_second)))
+    }
+
+    /// The distance between two axes as segments, mm.
     pub fn distance(&self, other: &Self) -> f64 {
+        let [s, t] = self.nearest(other);
+        ((self.a + (self.b - self.a) * s) - (other.a + (other.b - other.a) * t)).norm()
+    }
+
+    /// Where two axes as segments come nearest to each other: on either, 0 at A and 1 at B
+    /// (Ericson, *Real-Time Collision Detection*, 5.1.9).
+    pub fn nearest(&self, other: &Self) -> [f64; 2] {
         let (d1, d2, r) = (self.b - self.a, other.b - other.a, self.a - other.a);
         let (a, e, f) = (d1.norm_squared(), d2.norm_squared(), d2.dot(&r));
         let (b, c) = (d1.dot(&d2), d1.dot(&r));
@@ -105,7 +118,7 @@ impl Axis {
             t = 1.0;
             s = ((b - c) / a).clamp(0.0, 1.0);
         }
-        ((self.a + d1 * s) - (other.a + d2 * t)).norm()
+        [s, t]
     }
 }
 

@@ -132,6 +132,7 @@ mod tests {
             overhang: 6.0,
             round: 0.5,
             layering: Default::default(),
+            way: crate::frame::close::Way::default(),
             surface_low: 0.0,
         };
         form(&PlaneCanvas::new(chart, pattern, placement, pattern.usual()).unwrap(), &settings)

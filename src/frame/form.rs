@@ -4,8 +4,10 @@
 use super::assemble::{Ground, assemble};
 use super::axis::Axis;
 use super::canvas::{Canvas, Sizing};
+use super::circuits::circuits;
 use super::clash::clashes;
-use super::close::{CloseError, Closing, close};
+use super::close::bounds::Limits;
+use super::close::{CloseError, Closing, Task, Way, close};
 use super::crop::{crop, held};
 use super::cut::{crossings, cut, disorder, seats};
 use super::fault::{Fault, cover};
@@ -13,7 +15,7 @@ use super::gaps::Joint;
 use super::layer::{Layering, layer};
 use super::lift::{Parallel, lift};
 use super::stand::{Standing, ground_level, stand};
-use super::weave::{Weave, weave};
+use super::weave::{RodEnd, Weave, weave};
 use super::{ContactKind, Dropped, Frame};
 use crate::ids::{ContactId, Id, IdVec, RodId, TileId, UnitId};
 use crate::linalg::LinalgError;
@@ -31,6 +33,8 @@ pub struct FormSettings {
     pub round: f64,
     /// Who goes over.
     pub layering: Layering,
+    /// How contacts are closed.
+    pub way: Way,
     /// The lowest height of the surface.
     pub surface_low: f64,
 }
@@ -294,8 +298,47 @@ fn close_and_finish(
         Err(c) => return Ok(Err(vec![open_contact(weave, c)])),
     };
     let joints = joints(weave, &over, settings.diameter);
-    let mut axes = lifted.axes.clone();
-    let closing = match close(&mut axes, &joints) {
+    let closed = close_as(weave, &lifted.axes, &joints, (edge, settings), settings.way)?;
+    let closed = match closed {
+        // The least move may do where steps that shape the units led into trouble.
+        Err(faults) if settings.way == Way::Shape => {
+            match close_as(weave, &lifted.axes, &joints, (edge, settings), Way::Least)? {
+                Err(others) if others.len() >= faults.len() => Err(faults),
+                least => least,
+            }
+        }
+        closed => closed,
+    };
+    Ok(closed.map(|Closed { frame, closing, moves }| Formed {
+        frame,
+        tiles: weave.units.iter().map(|unit| unit.tile).collect(),
+        closing,
+        moves,
+        ending_over: over,
+        rises,
+    }))
+}
+
+/// A frame that is closed and cut.
+struct Closed {
+    frame: Frame,
+    closing: Closing,
+    /// How far rod ends moved, mm.
+    moves: Vec<f64>,
+}
+
+/// Closes and cuts lifted axes; or what is wrong with which units.
+fn close_as(
+    weave: &Weave,
+    lifted: &IdVec<RodId, Axis>,
+    joints: &IdVec<ContactId, Joint>,
+    (edge, settings): (f64, &FormSettings),
+    way: Way,
+) -> Result<Result<Closed, Vec<Fault>>, FormError> {
+    let mut axes = lifted.clone();
+    let (circuits, limits) = (circuits(weave), limits(weave, settings));
+    let task = Task { joints, circuits: &circuits, limits: Some(&limits), edge };
+    let closing = match close(&mut axes, &task, way) {
         Ok(closing) => closing,
         Err(CloseError::Linear(e)) => return Err(unsolved(weave, e)),
         Err(CloseError::Parallel(c)) => return Ok(Err(vec![open_contact(weave, c)])),
@@ -304,19 +347,24 @@ fn close_and_finish(
         }
     };
     let moves = lifted
-        .axes
         .iter()
-        .zip(&axes)
+        .zip(axes.iter())
         .flat_map(|(old, new)| [(new.a - old.a).norm(), (new.b - old.b).norm()])
         .collect();
-    Ok(finish(weave, &axes, &joints, edge, settings).map(|frame| Formed {
-        frame,
-        tiles: weave.units.iter().map(|unit| unit.tile).collect(),
-        closing,
-        moves,
-        ending_over: over,
-        rises,
-    }))
+    let frame = finish(weave, &axes, joints, edge, settings);
+    Ok(frame.map(|frame| Closed { frame, closing, moves }))
+}
+
+/// What closing has to keep: the frame is cut and checked for it afterwards.
+fn limits(weave: &Weave, settings: &FormSettings) -> Limits {
+    let FormSettings { diameter, overhang, round, .. } = *settings;
+    let beyond = |end| if end == RodEnd::Meets { 0.0 } else { overhang + round / 2.0 };
+    Limits {
+        along: weave.rods.iter().map(|rod| rod.contacts.clone()).collect(),
+        room: ENGAGEMENT * diameter,
+        beyond: weave.rods.iter().map(|rod| rod.ends.map(beyond)).collect(),
+        thickness: weave.rods.iter().map(|_| diameter).collect(),
+    }
 }
 
 fn open_contact(weave: &Weave, contact: ContactId) -> Fault {

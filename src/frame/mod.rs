@@ -6,6 +6,7 @@ pub mod arrangement;
 pub mod assemble;
 pub mod axis;
 pub mod canvas;
+pub mod circuits;
 pub mod clash;
 pub mod close;
 pub mod crop;

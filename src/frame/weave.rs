@@ -9,6 +9,7 @@ use crate::chart::SurfacePoint;
 use crate::ids::{ContactId, Id, IdVec, RodId, TileId, UnitId};
 use crate::pattern::{Guest, Line, Meetings, Unmet};
 use crate::surface::Point3;
+use nalgebra::Point2;
 
 /// A reciprocal pattern on its surface, before any rod is straight.
 #[derive(Clone, Debug, Default)]
@@ -78,6 +79,9 @@ pub struct WovenUnit {
     /// The contacts in its tile. In a circuit, contact i between outer rods i and i + 1
     /// comes first.
     pub contacts: Vec<ContactId>,
+    /// Where the contacts of its circuit lie in the flat picture of its tile; none without
+    /// a circuit.
+    pub corners: Vec<Point2<f64>>,
 }
 
 /// Why a tile cannot become a unit.

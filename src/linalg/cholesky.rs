@@ -13,7 +13,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::traits::ComplexField;
 use faer::{Conj, MatMut, Par, Side, Spec};
-use nalgebra::Matrix2;
+use nalgebra::SMatrix;
 
 /// Factors A = L Lᴴ with A Hermitian, positive definite and of fixed pattern; `T` is
 /// `f64` or a complex number of two.
@@ -36,20 +36,21 @@ impl<T: ComplexField> Cholesky<T> {
         Self::ordered(pattern, SymmetricOrdering::Amd)
     }
 
-    /// Analyses a matrix with two unknowns in place of each one of the pattern. The
-    /// order is sought on the pattern itself: four times less to look through.
+    /// Analyses a matrix with `k` unknowns in place of each one of the pattern. The order
+    /// is sought on the pattern itself: k² times less to look through.
     ///
     /// # Errors
     /// [`LinalgError::TooLarge`] when memory does not suffice.
-    pub fn of_pairs(pattern: &LowerPattern) -> Result<Self, LinalgError> {
+    pub fn of_blocks(pattern: &LowerPattern, k: usize) -> Result<Self, LinalgError> {
         let order = amd_order(pattern)?;
-        let forward: Vec<u32> = order.iter().flat_map(|&i| [2 * i, 2 * i + 1]).collect();
+        let within = |&i: &u32| (0..k as u32).map(move |j| k as u32 * i + j);
+        let forward: Vec<u32> = order.iter().flat_map(within).collect();
         let mut inverse = vec![0; forward.len()];
         for (new, &old) in forward.iter().enumerate() {
             inverse[old as usize] = new as u32;
         }
         let order = PermRef::new_checked(&forward, &inverse, forward.len());
-        Self::ordered(pattern.doubled()?, SymmetricOrdering::Custom(order))
+        Self::ordered(pattern.times(k)?, SymmetricOrdering::Custom(order))
     }
 
     fn ordered(
@@ -194,23 +195,28 @@ impl SpdSolver {
     }
 }
 
-/// Solver for A x = b with A real and made of 2 × 2 blocks: two unknowns a node, side
-/// by side. Blocks are added where they belong, without a list.
-pub struct PairSolver {
+/// Solver for A x = b with A real and made of K × K blocks: K unknowns a node, side by
+/// side. Blocks are added where they belong, without a list.
+pub struct BlockSolver<const K: usize> {
     nodes: LowerPattern,
     cholesky: Cholesky<f64>,
     values: Vec<f64>,
 }
 
-impl PairSolver {
+impl<const K: usize> BlockSolver<K> {
     /// Analyses the matrix with a block for each entry of the pattern.
     ///
     /// # Errors
     /// [`LinalgError::TooLarge`] when memory does not suffice.
     pub fn new(nodes: LowerPattern) -> Result<Self, LinalgError> {
-        let cholesky = Cholesky::of_pairs(&nodes)?;
+        let cholesky = Cholesky::of_blocks(&nodes, K)?;
         let values = vec![0.0; cholesky.pattern.entries()];
         Ok(Self { nodes, cholesky, values })
+    }
+
+    /// Where blocks can be added.
+    pub fn nodes(&self) -> &LowerPattern {
+        &self.nodes
     }
 
     /// Sets all blocks to zero.
@@ -222,13 +228,13 @@ impl PairSolver {
     ///
     /// # Panics
     /// When the pair of nodes is not in the pattern.
-    pub fn add(&mut self, row: usize, column: usize, block: Matrix2<f64>) {
-        let block = if row < column { block.transpose() } else { block };
-        let at = self.nodes.doubled_at(row.max(column), row.min(column));
-        for half in 0..2 {
-            self.values[at[half]] += block[(1, half)];
-            if half == 0 || row != column {
-                self.values[at[half] - 1] += block[(0, half)];
+    pub fn add(&mut self, row: usize, column: usize, block: &SMatrix<f64, K, K>) {
+        let (lower, left) = (row.max(column), row.min(column));
+        for within in 0..K {
+            let start = self.nodes.block_start(lower, left, K, within);
+            for i in if row == column { within } else { 0 }..K {
+                let entry = if row < column { block[(within, i)] } else { block[(i, within)] };
+                self.values[start + i] += entry;
             }
         }
     }
@@ -244,7 +250,7 @@ impl PairSolver {
     /// Replaces the right-hand side by the solution of the matrix factored last.
     ///
     /// # Panics
-    /// When the length is not twice the number of nodes.
+    /// When the length is not K times the number of nodes.
     pub fn solve(&mut self, rhs: &mut [f64]) {
         self.cholesky.solve(rhs);
     }
@@ -253,6 +259,7 @@ impl PairSolver {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Matrix2;
 
     /// A chain of springs held at both ends: the displacement under unit loads
     /// is the parabola i (n + 1 − i) / 2.
@@ -313,10 +320,10 @@ mod tests {
             (1, 0, between),
         ];
         let nodes = LowerPattern::new(3, blocks.iter().map(|b| (b.0, b.1))).unwrap();
-        let mut pairs = PairSolver::new(nodes).unwrap();
+        let mut pairs = BlockSolver::<2>::new(nodes).unwrap();
         let (mut entries, mut values) = (Vec::new(), Vec::new());
         for (row, column, block) in blocks {
-            pairs.add(row, column, block);
+            pairs.add(row, column, &block);
             for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 // Of a block on the diagonal, the lower half.
                 if row != column || i >= j {

@@ -6,7 +6,7 @@
 mod cholesky;
 mod pattern;
 
-pub use cholesky::{Cholesky, PairSolver, SpdSolver, block_entries};
+pub use cholesky::{BlockSolver, Cholesky, SpdSolver, block_entries};
 pub use pattern::LowerPattern;
 
 use thiserror::Error;

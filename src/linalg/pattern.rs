@@ -103,38 +103,38 @@ impl LowerPattern {
         self.starts[column] as usize + self.rank(row, column)
     }
 
-    /// The pattern with two unknowns in place of each, side by side. Entry k of column
-    /// j becomes a block of four, or of three on the diagonal; see [`doubled_at`].
+    /// The pattern with `k` unknowns in place of each, side by side. Every entry becomes a
+    /// block of k × k, those on the diagonal its lower half; see
+    /// [`block_start`](Self::block_start).
     ///
     /// # Errors
     /// [`LinalgError::TooLarge`] when the entries cannot be counted in 32 bits.
-    pub fn doubled(&self) -> Result<Self, LinalgError> {
-        let size = 2 * self.size();
-        let total = 4 * self.entries() - self.size();
+    pub fn times(&self, k: usize) -> Result<Self, LinalgError> {
+        let size = k * self.size();
+        let total = k * k * self.entries() - self.size() * k * (k - 1) / 2;
         u32::try_from(total).map_err(|_| LinalgError::TooLarge { size })?;
-        let mut doubled =
+        let mut times =
             Self { starts: Vec::with_capacity(size + 1), rows: Vec::with_capacity(total) };
-        doubled.starts.push(0);
+        times.starts.push(0);
         for column in 0..self.size() {
-            for half in 0..2 {
-                let all = self.column(column).iter().flat_map(|&row| [2 * row, 2 * row + 1]);
-                doubled.rows.extend(all.skip(half));
-                doubled.starts.push(doubled.rows.len() as u32);
+            for within in 0..k {
+                let of = |&row: &u32| (0..k as u32).map(move |i| k as u32 * row + i);
+                times.rows.extend(self.column(column).iter().flat_map(of).skip(within));
+                times.starts.push(times.rows.len() as u32);
             }
         }
-        Ok(doubled)
+        Ok(times)
     }
 
-    /// Positions in [`doubled`](Self::doubled) of the block of an entry: for each of the
-    /// two columns, that of its lower row. The upper row stands one before it, except
-    /// that the upper right corner of a diagonal block is not stored.
-    pub(super) fn doubled_at(&self, row: usize, column: usize) -> [usize; 2] {
+    /// Where column `within` of the block of an entry begins in [`times`](Self::times) `k`:
+    /// the place of the block's first row there. On the diagonal the rows above the
+    /// diagonal are not stored, but counted.
+    pub(super) fn block_start(&self, row: usize, column: usize, k: usize, within: usize) -> usize {
         let entries = self.column(column).len();
-        let rank = self.rank(row, column);
-        // The column before holds four for each entry but the first, which holds three.
-        let start = 4 * self.starts[column] as usize - column;
-        let first = start + 2 * rank + 1;
-        [first, first + 2 * entries - 1]
+        let before = k * k * self.starts[column] as usize - column * k * (k - 1) / 2;
+        // Each column within the block lacks one more entry at its top.
+        let top = before + within * k * entries - within * (within + 1) / 2;
+        top + k * self.rank(row, column)
     }
 }
 
@@ -156,15 +156,23 @@ mod tests {
     }
 
     #[test]
-    fn blocks_are_found_in_the_doubled_pattern() {
+    fn blocks_are_found_in_the_larger_pattern() {
         let pattern = triangle_fan();
-        let doubled = pattern.doubled().unwrap();
-        assert_eq!(doubled.size(), 8);
-        for column in 0..4 {
-            for &row in pattern.column(column) {
-                let row = row as usize;
-                let wanted = [0, 1].map(|half| doubled.position(2 * row + 1, 2 * column + half));
-                assert_eq!(pattern.doubled_at(row, column), wanted);
+        for k in [1, 2, 4] {
+            let times = pattern.times(k).unwrap();
+            assert_eq!(times.size(), 4 * k);
+            for column in 0..4 {
+                for &row in pattern.column(column) {
+                    let row = row as usize;
+                    for within in 0..k {
+                        let start = pattern.block_start(row, column, k, within);
+                        let above = if row == column { within } else { 0 };
+                        for i in above..k {
+                            let wanted = times.position(k * row + i, k * column + within);
+                            assert_eq!(start + i, wanted);
+                        }
+                    }
+                }
             }
         }
     }

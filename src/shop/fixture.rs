@@ -3,7 +3,7 @@
 use crate::chart::{Method, PlanarChart, SurfacePoint};
 use crate::frame::axis::Axis;
 use crate::frame::canvas::PlaneCanvas;
-use crate::frame::close::close;
+use crate::frame::close::{Way, project};
 use crate::frame::fit::fit;
 use crate::frame::footprint::{Footprint, footprint};
 use crate::frame::form::{FormSettings, form};
@@ -34,7 +34,7 @@ pub(crate) fn circuit(n: usize, diameter: f64) -> Frame {
             kind: ContactKind::Cross,
         })
         .collect();
-    close(&mut axes, &joints).unwrap();
+    project(&mut axes, &joints).unwrap();
     let axes: IdVec<RodId, Axis> = (0..n).map(|i| cut(&axes, &joints, i)).collect();
     let contacts: IdVec<ContactId, Contact> = joints.iter().map(|j| contact(&axes, j)).collect();
     let around = |i: usize| vec![ContactId::new((i + n - 1) % n), ContactId::new(i)];
@@ -125,6 +125,7 @@ pub(crate) fn laid_on_sample(
         overhang: OVERHANG,
         round: 0.5,
         layering: Default::default(),
+        way: Way::default(),
         surface_low,
     };
     let placement = Placement { edge, ..start };

@@ -2,6 +2,7 @@ use super::*;
 use crate::chart::{Chart, Method, PlanarChart};
 use crate::frame::canvas::PlaneCanvas;
 use crate::frame::canvas::fixture::Sheet;
+use crate::frame::close::Way;
 use crate::frame::crop::{crop, held};
 use crate::frame::form::{FormSettings, form};
 use crate::frame::lift::lift;
@@ -114,6 +115,7 @@ fn a_flat_sheet_closes_with_little_move_and_nothing_left_out() {
         overhang: 0.1,
         round: 0.0,
         layering: Layering::Auto,
+        way: Way::default(),
         surface_low: -9.0,
     };
     let formed = form(&canvas, &settings).unwrap();

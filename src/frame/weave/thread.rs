@@ -97,7 +97,17 @@ impl<C: Canvas> Loom<'_, C> {
             };
             let (center, contacts) = (placed.center, Vec::new());
             let sides = placed.lines.len();
-            self.weave.units.push(WovenUnit { tile, center, chirality, sides, rods, contacts });
+            let round = &placed.meetings.all[..placed.meetings.circuit];
+            let corners = round.iter().map(|meeting| meeting.at).collect();
+            self.weave.units.push(WovenUnit {
+                tile,
+                center,
+                chirality,
+                sides,
+                rods,
+                contacts,
+                corners,
+            });
         }
     }
 

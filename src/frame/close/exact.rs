@@ -1,0 +1,126 @@
+//! Newton projection onto the contacts: in every step the least move of all ends that
+//! meets the linearised gaps, and the bounds that would be broken.
+//!
+//! It converges quadratically; where the last step was a good one, the same factorisation
+//! serves for the next.
+
+use super::bounds::Bound;
+use super::equations::{Equations, Move, Moves, longest, moved};
+use super::projector::Projector;
+use super::{CloseError, Task, gap_rows, worst};
+use crate::frame::axis::Axis;
+use crate::frame::gaps::Row;
+use crate::ids::{ContactId, IdVec, RodId};
+use std::collections::BTreeSet;
+
+/// Error of a gap, as part of the diameter, at which closing is done: the last step before
+/// this is quadratic, so what is left is rounding. A larger bound would stop one step early
+/// and leave errors that marks to 0.1 mm never show but checks do.
+pub const EXACT: f64 = 1e-12;
+
+/// Errors up to this do where rounding keeps a large frame from [`EXACT`]: ten times below
+/// what the structure file promises.
+const GOOD: f64 = 1e-10;
+
+/// A step that leaves more than this part of the error has come to rounding.
+const STUCK: f64 = 0.2;
+
+/// Steps before giving up; good starts take three to six.
+const MAX_STEPS: usize = 40;
+
+/// Steps after which bounds that are still broken are left so: whoever checks the frame
+/// finds them.
+const BOUND_STEPS: usize = 20;
+
+/// Longest move of an end in one step, as part of the mean length of the axes. Longer moves
+/// leave the range in which the linearised gaps say anything; the step is shortened.
+const LONGEST_MOVE: f64 = 0.25;
+
+/// A factorisation serves on while every step leaves less than this part of the error.
+const SERVES: f64 = 0.05;
+
+/// How far bounds give way, as part of their own row of J Jᵀ. Bounds that contradict
+/// contacts then bend instead of making the system singular; less, and they throw the rods
+/// far off, more, and bounds take more steps to be met.
+pub(super) const YIELD: f64 = 1e-3;
+
+/// What projection took.
+pub struct Exact {
+    /// Newton steps.
+    pub steps: usize,
+    /// Largest error of a gap left, as part of the diameter.
+    pub error: f64,
+}
+
+/// Moves the axes by as little as possible until every joint has its gap, and the bounds
+/// hold, those in `held` from the start.
+pub fn exact(
+    axes: &mut IdVec<RodId, Axis>,
+    task: &Task,
+    held: &mut BTreeSet<Bound>,
+) -> Result<Exact, CloseError> {
+    let mean = axes.iter().map(Axis::length).sum::<f64>() / axes.len() as f64;
+    let mut rows = gap_rows(axes, task.joints)?;
+    let mut bounds = task.bounds(axes, &rows);
+    let mut projector: Option<Projector> = None;
+    let mut last = f64::INFINITY;
+    for step in 0..=MAX_STEPS {
+        let error = worst(&rows);
+        let broken = match &bounds {
+            Some(bounds) if step < BOUND_STEPS => bounds.broken(axes, &rows),
+            _ => Vec::new(),
+        };
+        if (error <= EXACT || error <= GOOD && error > STUCK * last) && broken.is_empty() {
+            return Ok(Exact { steps: step, error });
+        }
+        if step == MAX_STEPS || error.is_nan() {
+            return Err(CloseError::Diverged { open: open(&rows) });
+        }
+        let before = held.len();
+        held.extend(broken);
+        let mut serves = held.len() == before && error < SERVES * last;
+        last = error;
+        let mut equations = Equations::of_contacts(&rows);
+        if let Some(bounds) = &bounds {
+            held.retain(|&bound| bounds.hold(bound, axes, &mut equations));
+        }
+        if projector.as_ref().is_none_or(|p| !p.suits(&equations)) {
+            projector = Some(Projector::new(axes.len(), &equations)?);
+            serves = false;
+        }
+        let Some(projector) = &mut projector else { unreachable!("made in the lines before") };
+        if !serves {
+            projector.factor(&equations, |row| yields(row, rows.len()))?;
+        }
+        let pull = projector.solve(equations.lacking.clone());
+        let mut moves: Moves = vec![Move::zeros(); axes.len()].into();
+        equations.pull(&pull, 1.0, &mut moves);
+        release(held, &pull[rows.len()..]);
+        let part = (LONGEST_MOVE * mean / longest(&moves)).min(1.0);
+        *axes = moved(axes, &moves, part);
+        rows = gap_rows(axes, task.joints)?;
+        if let (Some(bounds), 0 | 1) = (&mut bounds, step) {
+            bounds.watch(axes, &rows);
+        }
+    }
+    unreachable!("the last round of the loop returns")
+}
+
+/// S of [`Projector::factor`]: contacts are firm, bounds give way a little.
+pub(super) fn yields(row: usize, contacts: usize) -> f64 {
+    if row < contacts { 0.0 } else { YIELD }
+}
+
+/// Lets go of bounds that would pull rods towards them.
+pub(super) fn release(held: &mut BTreeSet<Bound>, pull: &[f64]) {
+    let mut pull = pull.iter();
+    held.retain(|_| pull.next().is_none_or(|&p| p >= 0.0));
+}
+
+/// The contacts whose gaps are still wrong.
+fn open(rows: &[Row]) -> Vec<ContactId> {
+    let wrong = |row: &&Row| row.error().is_nan() || row.error() > GOOD;
+    let mut open: Vec<ContactId> = rows.iter().filter(wrong).map(|row| row.contact).collect();
+    open.dedup();
+    open
+}

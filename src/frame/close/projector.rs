@@ -1,0 +1,87 @@
+//! The least moves that meet linear equations: with J the gradients, the least move with
+//! J dx = r is dx = Jᵀ (J Jᵀ)⁻¹ r.
+
+use super::equations::Equations;
+use crate::ids::{IdVec, RodId};
+use crate::linalg::{LinalgError, SpdSolver, block_entries};
+
+/// A part of a row, by its rod.
+#[derive(Clone, Copy)]
+struct Meeting {
+    row: u32,
+    part: u32,
+}
+
+/// J Jᵀ + S, factored, with S a diagonal.
+pub struct Projector {
+    solver: SpdSolver,
+    /// What meets at each rod.
+    around: IdVec<RodId, Vec<Meeting>>,
+    /// The rods of all parts.
+    rods: Vec<RodId>,
+    values: Vec<f64>,
+    rows: usize,
+}
+
+impl Projector {
+    /// Analyses equations in the moves of this many rods.
+    ///
+    /// # Errors
+    /// [`LinalgError::TooLarge`] when memory does not suffice.
+    pub fn new(rods: usize, equations: &Equations) -> Result<Self, LinalgError> {
+        let mut around: IdVec<RodId, Vec<Meeting>> = vec![Vec::with_capacity(4); rods].into();
+        let rows = equations.len();
+        for row in 0..rows {
+            for part in equations.range(row) {
+                let (rod, _) = equations.parts()[part];
+                around[rod].push(Meeting { row: row as u32, part: part as u32 });
+            }
+        }
+        let mut entries = Vec::new();
+        for at in &around {
+            let row = |i: usize| at[i].row as usize;
+            entries.extend(block_entries(at.len()).map(|(i, j)| (row(i), row(j))));
+        }
+        entries.extend((0..rows).map(|row| (row, row)));
+        let values = Vec::with_capacity(entries.len());
+        let rods = equations.parts().iter().map(|part| part.0).collect();
+        Ok(Self { solver: SpdSolver::new(rows, &entries)?, around, rods, values, rows })
+    }
+
+    /// Whether these equations look at the same rods as those that were analysed.
+    pub fn suits(&self, equations: &Equations) -> bool {
+        self.rods.len() == equations.parts().len()
+            && self.rows == equations.len()
+            && self.rods.iter().zip(equations.parts()).all(|(rod, part)| *rod == part.0)
+    }
+
+    /// Factors J Jᵀ + S; `shift` gives the diagonal of S by row.
+    ///
+    /// # Errors
+    /// [`LinalgError::NotPositiveDefinite`] where equations contradict each other or
+    /// say the same.
+    ///
+    /// # Panics
+    /// When the equations have other rods than those that were analysed.
+    pub fn factor(
+        &mut self,
+        equations: &Equations,
+        shift: impl Fn(usize) -> f64,
+    ) -> Result<(), LinalgError> {
+        assert_eq!(self.rows, equations.len(), "the equations that were analysed");
+        let parts = equations.parts();
+        self.values.clear();
+        for at in &self.around {
+            let part = |i: usize| &parts[at[i].part as usize].1;
+            self.values.extend(block_entries(at.len()).map(|(i, j)| part(i).dot(part(j))));
+        }
+        self.values.extend((0..self.rows).map(shift));
+        self.solver.factor(&self.values)
+    }
+
+    /// (J Jᵀ + S)⁻¹ r.
+    pub fn solve(&mut self, mut lacking: Vec<f64>) -> Vec<f64> {
+        self.solver.solve(&mut lacking);
+        lacking
+    }
+}

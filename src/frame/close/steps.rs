@@ -1,0 +1,281 @@
+//! Steps that bring the units into shape while the contacts come together (paper,
+//! section 5.2).
+//!
+//! A Gauss-Newton step minimises C F1² + E + ε |Δ|² of its linearised terms, lengths in tile
+//! edges, with F1 the errors of the gaps and Δ the moves of the rod ends: one sparse
+//! Cholesky factorisation in four unknowns a rod. The paper takes C = 500 and ε = 1, and
+//! creeps. With C ten times larger contacts come near at once, and with ε smaller after
+//! every good step units find their shape in a few; the projection then finishes what is
+//! left. Steps end when the units are shaped no worse than they were, or rods would have to
+//! move too far for more.
+
+use super::across::{Across, Bases};
+use super::bounds::{Bound, Bounds};
+use super::equations::{Equations, Moves, longest, moved};
+use super::exact::release;
+use super::shape::{UnitTerms, energy};
+use super::{CloseError, Task, gap_rows};
+use crate::frame::axis::Axis;
+use crate::frame::gaps::Row;
+use crate::ids::{ContactId, Id, IdVec, RodId};
+use crate::linalg::{BlockSolver, LinalgError, LowerPattern};
+use nalgebra::Matrix4;
+use std::collections::BTreeSet;
+
+/// How contacts are weighed against shape, and when to stop.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Weighing {
+    /// C: weight of F1², the error of a gap in tile edges.
+    contacts: f64,
+    /// ε: weight of the moves of rod ends.
+    fidelity: f64,
+    /// Factor on ε after good and bad steps.
+    easing: f64,
+    /// Most steps.
+    steps: usize,
+    /// Steps end when one takes off less than this part of C F1² + E.
+    settled: f64,
+}
+
+/// Contacts as good as firm. They only need to come near: the steps stop early.
+pub const FIRM: Weighing =
+    Weighing { contacts: 5e3, fidelity: 1.0, easing: 4.0, steps: 5, settled: 0.03 };
+
+/// The paper's weights, to stillness.
+pub const PAPER: Weighing =
+    Weighing { contacts: 500.0, fidelity: 1.0, easing: 1.0, steps: 60, settled: 1e-6 };
+
+/// A step that is shortened less than this was good.
+const WHOLE: f64 = 0.9;
+
+impl Weighing {
+    /// After a step of which `part` was taken: less fidelity where it was good, more where it
+    /// was not (Levenberg and Marquardt).
+    fn loosen(&mut self, part: f64) {
+        if part >= WHOLE {
+            self.fidelity /= self.easing;
+        } else if part < WHOLE / 2.0 {
+            self.fidelity *= self.easing;
+        }
+    }
+}
+
+/// Longest move of an end in one step, in tile edges.
+const LONGEST_MOVE: f64 = 0.25;
+
+/// How far rod ends may move in the mean, in diameters: a frame that stays near what was
+/// lifted looks as it was drawn.
+const MEAN_MOVE: f64 = 1.4;
+
+/// How much farther than in the first step, where that moves them farther.
+const FARTHER: f64 = 2.0;
+
+/// Times that a step is halved before it is given up.
+const HALVINGS: u8 = 4;
+
+/// Takes steps until they change little. Returns their number.
+pub fn settle(
+    axes: &mut IdVec<RodId, Axis>,
+    task: &Task,
+    weighing: &Weighing,
+    held: &mut BTreeSet<Bound>,
+) -> Result<usize, CloseError> {
+    let mut rows = gap_rows(axes, task.joints)?;
+    let bounds = task.bounds(axes, &rows);
+    let mut system = System { weighing: *weighing, solver: None };
+    let start = axes.clone();
+    let wanted = task.energy(axes);
+    let mut now = system.measure(axes, &rows, task);
+    let mut roam = 0.0;
+    for step in 0..weighing.steps {
+        if let Some(bounds) = &bounds {
+            held.extend(bounds.broken(axes, &rows));
+        }
+        let moves = system.direction(axes, &rows, task, bounds.as_ref(), held)?;
+        let Some(tried) = system.shortened(axes, &moves, task, now) else { return Ok(step) };
+        system.weighing.loosen(tried.part);
+        let far = mean_move(&start, &tried.axes);
+        if step == 0 {
+            roam = (MEAN_MOVE * rows.first().map_or(0.0, |row| row.diameter)).max(FARTHER * far);
+        } else if far > roam {
+            return Ok(step);
+        }
+        let slow = now - tried.measure < weighing.settled * now;
+        (*axes, rows, now) = (tried.axes, tried.rows, tried.measure);
+        if slow || step > 0 && weighing.easing > 1.0 && task.energy(axes).is_within(&wanted) {
+            return Ok(step + 1);
+        }
+    }
+    Ok(weighing.steps)
+}
+
+/// The mean distance between the ends of axes and where they were, mm.
+fn mean_move(from: &IdVec<RodId, Axis>, to: &IdVec<RodId, Axis>) -> f64 {
+    let ends = |(p, q): (&Axis, &Axis)| ((p.a - q.a).norm() + (p.b - q.b).norm()) / 2.0;
+    from.iter().zip(to.iter()).map(ends).sum::<f64>() / from.len() as f64
+}
+
+/// A step that was tried.
+struct Tried {
+    axes: IdVec<RodId, Axis>,
+    rows: Vec<Row>,
+    measure: f64,
+    /// How much of it was taken.
+    part: f64,
+}
+
+/// The system of a step.
+struct System {
+    weighing: Weighing,
+    solver: Option<BlockSolver<{ Across::WAYS }>>,
+}
+
+impl System {
+    /// C F1² + E: what steps have to lower.
+    fn measure(&self, axes: &IdVec<RodId, Axis>, rows: &[Row], task: &Task) -> f64 {
+        let open: f64 = rows.iter().map(|row| ((row.wanted - row.gap) / task.edge).powi(2)).sum();
+        self.weighing.contacts * open + energy(axes, task.joints, task.circuits, task.edge).total()
+    }
+
+    /// A step, shortened until it lowers the measure; nothing where none does.
+    fn shortened(
+        &self,
+        axes: &IdVec<RodId, Axis>,
+        moves: &Moves,
+        task: &Task,
+        now: f64,
+    ) -> Option<Tried> {
+        let whole = (LONGEST_MOVE * task.edge / longest(moves)).min(1.0);
+        (0..=HALVINGS).find_map(|halved| {
+            let part = whole / f64::from(1 << halved);
+            let axes = moved(axes, moves, part);
+            let rows = gap_rows(&axes, task.joints).ok()?;
+            let measure = self.measure(&axes, &rows, task);
+            (measure < now).then_some(Tried { axes, rows, measure, part })
+        })
+    }
+
+    /// The move of a Gauss-Newton step; bounds that would pull are let go.
+    fn direction(
+        &mut self,
+        axes: &IdVec<RodId, Axis>,
+        rows: &[Row],
+        task: &Task,
+        bounds: Option<&Bounds>,
+        held: &mut BTreeSet<Bound>,
+    ) -> Result<Moves, CloseError> {
+        let mut equations = Equations::of_contacts(rows);
+        if let Some(bounds) = bounds {
+            held.retain(|&bound| bounds.hold(bound, axes, &mut equations));
+        }
+        let bases: Bases = axes.iter().map(Across::new).collect();
+        let mut solver = match self.solver.take() {
+            Some(solver) if held.is_empty() => solver,
+            _ => BlockSolver::new(pattern(axes.len(), task, &equations)?)?,
+        };
+        let mut way = self.fill(&mut solver, axes, &bases, task, &equations)?;
+        solver.factor()?;
+        solver.solve(&mut way);
+        let moves: Moves = bases
+            .iter()
+            .zip(way.chunks_exact(Across::WAYS))
+            .map(|(basis, ways)| basis.to_move(ways))
+            .collect();
+        // What a row lacks after the step is what it is pulled by.
+        let met = equations.changes(&moves);
+        let left: Vec<f64> = equations.lacking.iter().zip(&met).map(|(r, m)| r - m).collect();
+        if held.is_empty() {
+            self.solver = Some(solver);
+        }
+        release(held, &left[rows.len()..]);
+        Ok(moves)
+    }
+
+    /// Fills in the matrix; returns the right-hand side.
+    fn fill(
+        &self,
+        solver: &mut BlockSolver<{ Across::WAYS }>,
+        axes: &IdVec<RodId, Axis>,
+        bases: &Bases,
+        task: &Task,
+        equations: &Equations,
+    ) -> Result<Vec<f64>, CloseError> {
+        const W: usize = Across::WAYS;
+        solver.clear();
+        let mut rhs = vec![0.0; W * axes.len()];
+        let own = Matrix4::identity() * self.weighing.fidelity;
+        (0..axes.len()).for_each(|rod| solver.add(rod, rod, &own));
+        let weight = self.weighing.contacts;
+        for (row, lacking) in equations.lacking.iter().enumerate() {
+            let parts = &equations.parts()[equations.range(row)];
+            for (i, (rod, part)) in parts.iter().enumerate() {
+                let ways = bases[*rod].of(part) * weight;
+                for k in 0..W {
+                    rhs[W * rod.index() + k] += ways[k] * lacking;
+                }
+                for (other, with) in &parts[..=i] {
+                    let block = ways * bases[*other].of(with).transpose();
+                    solver.add(rod.index(), other.index(), &block);
+                }
+            }
+        }
+        let mut terms = UnitTerms::default();
+        for circuit in task.circuits {
+            terms
+                .fill(axes, bases, task.joints, circuit, task.edge)
+                .map_err(CloseError::Parallel)?;
+            add_unit(solver, &mut rhs, &terms);
+        }
+        Ok(rhs)
+    }
+}
+
+/// Adds GᵀG of a unit's terms, and takes Gᵀ times the terms from the right-hand side.
+fn add_unit(solver: &mut BlockSolver<{ Across::WAYS }>, rhs: &mut [f64], terms: &UnitTerms) {
+    const W: usize = Across::WAYS;
+    let width = W * terms.rods.len();
+    let rows = || terms.rows.chunks_exact(width);
+    for (row, value) in rows().zip(&terms.values) {
+        for (rod, part) in terms.rods.iter().zip(row.chunks_exact(W)) {
+            for (to, part) in rhs[W * rod.index()..].iter_mut().zip(part) {
+                *to -= part * value;
+            }
+        }
+    }
+    for (i, rod) in terms.rods.iter().enumerate() {
+        for (j, other) in terms.rods[..=i].iter().enumerate() {
+            let mut block = Matrix4::zeros();
+            for row in rows() {
+                let (p, q) = (&row[W * i..W * i + W], &row[W * j..W * j + W]);
+                for (column, q) in q.iter().enumerate() {
+                    for (line, p) in p.iter().enumerate() {
+                        block[(line, column)] += p * q;
+                    }
+                }
+            }
+            solver.add(rod.index(), other.index(), &block);
+        }
+    }
+}
+
+/// Which rods share a term.
+fn pattern(rods: usize, task: &Task, equations: &Equations) -> Result<LowerPattern, LinalgError> {
+    let rods_of = |c: &ContactId| [task.joints[*c].over, task.joints[*c].under];
+    let mut pairs: Vec<(usize, usize)> = Vec::new();
+    let mut among = |rods: &[RodId]| {
+        for (i, p) in rods.iter().enumerate() {
+            pairs.extend(rods[..i].iter().map(|q| (p.index(), q.index())));
+        }
+    };
+    for circuit in task.circuits {
+        let mut rods: Vec<RodId> = circuit.contacts.iter().flat_map(rods_of).collect();
+        rods.sort_unstable();
+        rods.dedup();
+        among(&rods);
+    }
+    for row in 0..equations.len() {
+        let parts = &equations.parts()[equations.range(row)];
+        among(&parts.iter().map(|part| part.0).collect::<Vec<_>>());
+    }
+    LowerPattern::new(rods, pairs.iter().copied())
+}
