@@ -88,6 +88,7 @@ fn row(chart: &PlanarChart, diameter: f64) {
         .collect();
     let (close_time, closing) = least(|| project(&mut lifted.axes.clone(), &joints));
     let settings = FormSettings {
+        sizes: Default::default(),
         diameter,
         overhang: 2.0 * diameter,
         round: 0.5,

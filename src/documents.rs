@@ -25,7 +25,9 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
     let frame = &model.formed.frame;
     let classes = classes(frame);
     let structure = Structure::from_frame(frame, &classes, &[]);
-    let stock: Vec<f64> = model.plan.shopping().iter().map(|&(length, _)| length).collect();
+    let mut stock: Vec<f64> = model.plan.shopping().iter().map(|p| p.length).collect();
+    stock.sort_by(|a, b| b.total_cmp(a));
+    stock.dedup();
     let mut files = Files::default();
     files.add("structure.json", structure.to_json()?);
     files.add("report.json", report(design, model).to_json()?);

@@ -18,7 +18,8 @@
 //! let start = Placement { origin: [0.0; 2].into(), rotation: 0.0, edge: 20.0 * rod };
 //! let edge = fit(&chart, pattern, &start, shape, rod)?.edge;
 //! let settings = FormSettings {
-//!     diameter: rod, overhang: 6.0, round: 0.5, layering: Layering::Auto, surface_low: 0.0,
+//!     diameter: rod, sizes: Default::default(), overhang: 6.0, round: 0.5,
+//!     layering: Layering::Auto, surface_low: 0.0,
 //! };
 //! let canvas = PlaneCanvas::new(&chart, pattern, Placement { edge, ..start }, shape)?;
 //! let frame = form(&canvas, &settings)?.frame;

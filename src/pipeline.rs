@@ -12,7 +12,7 @@ use crate::frame::guide::Guide;
 use crate::frame::measure::{Measures, measure};
 use crate::pattern::{Pattern, Shape};
 use crate::shop::cutlist::{CutError, CutPlan, Stock, plan};
-use crate::shop::lengths::cut_lengths;
+use crate::shop::lengths::sticks;
 use crate::surface::prepare::{PrepareError, Prepared, prepare, prepare_polygons};
 use crate::surface::read::{ReadError, read, read_polygons};
 use crate::surface::topology::{TopologyError, require_chartable};
@@ -110,9 +110,10 @@ pub fn lay(
     begin: &mut dyn FnMut(Step),
 ) -> Result<Model, BuildError> {
     // What goes wrong on an uneven chart goes wrong for that.
-    in_plane(design, pattern, flat, begin).map_err(|e| match flat.chart.distortion().uneven() {
-        Some(uneven) => BuildError::Uneven { e: Box::new(e), uneven },
-        None => e,
+    let uneven = flat.chart.distortion().uneven();
+    in_plane(design, pattern, flat, begin).map_err(|e| match (e, uneven) {
+        (e @ BuildError::Form(FormError::NoSuchRod { .. }), _) | (e, None) => e,
+        (e, Some(uneven)) => BuildError::Uneven { e: Box::new(e), uneven },
     })
 }
 
@@ -191,6 +192,7 @@ fn finish(
     begin(Step::Form);
     let settings = FormSettings {
         diameter: design.rod,
+        sizes: design.sizes.clone(),
         overhang: design.overhang,
         round: design.round,
         layering: design.layer,
@@ -257,14 +259,14 @@ fn turned_fit<C: Canvas>(
 
 /// Stock that holds every rod where the user names none: 1 m, or the next whole metre.
 fn sawing_plan(design: &Design, formed: &Formed) -> Result<CutPlan, BuildError> {
-    let lengths = cut_lengths(&formed.frame);
-    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    let sticks = sticks(&formed.frame);
+    let longest = sticks.iter().map(|stick| stick.length).fold(0.0, f64::max);
     let stock = if design.stock.is_empty() {
         vec![((longest / METRE).ceil() * METRE).max(METRE)]
     } else {
         design.stock.clone()
     };
-    Ok(plan(&lengths, &Stock { lengths: stock, kerf: design.kerf })?)
+    Ok(plan(&sticks, &Stock { lengths: stock, kerf: design.kerf })?)
 }
 
 /// Sticks are sold by the metre, mm.

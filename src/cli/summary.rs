@@ -2,9 +2,12 @@
 
 use super::terminal::Terminal;
 use crate::design::Design;
+use crate::frame::Frame;
 use crate::frame::arrangement::arrangement;
 use crate::frame::fit::FitBy;
 use crate::pipeline::Model;
+use crate::shop::Purchase;
+use crate::shop::lengths::diameters;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -12,13 +15,17 @@ use std::path::Path;
 pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) -> String {
     let m = &model.measures;
     let plan = &model.plan;
+    let mixed = plan.is_mixed();
+    let of = |p: &Purchase| {
+        if mixed { format!(" of Ø {}", diameter(p.diameters)) } else { String::new() }
+    };
     let buy: Vec<String> =
-        plan.shopping().iter().map(|(length, n)| format!("{n} × {length} mm")).collect();
+        plan.shopping().iter().map(|p| format!("{} × {} mm{}", p.count, p.length, of(p))).collect();
     let optimal = if plan.is_proven() { "fewest possible" } else { "good, perhaps not the fewest" };
     let [lo, hi] = model.formed.frame.bounds();
     let size = hi - lo;
     let rows = [
-        ("rods", format!("{} of {} mm diameter, {} units", m.rods, design.rod, m.units)),
+        ("rods", format!("{}, {} units", rods(&model.formed.frame), m.units)),
         ("size", format!("{:.0} × {:.0} × {:.0} mm", size.x, size.y, size.z)),
         (
             "lengths",
@@ -50,6 +57,18 @@ pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) 
     let end = format!("  {:<16} {}", "written to", out.display());
     writeln!(text, "{end}").expect("writing to a string cannot fail");
     text
+}
+
+/// How many rods there are of each diameter.
+pub fn rods(frame: &Frame) -> String {
+    let count = |(ends, n): ([f64; 2], usize)| format!("{n} of {}", diameter(ends));
+    let counts: Vec<String> = diameters(frame).into_iter().map(count).collect();
+    format!("{} diameter", counts.join(", "))
+}
+
+/// The diameter of a stick, given at end A and at end B, mm.
+pub fn diameter([a, b]: [f64; 2]) -> String {
+    if a == b { format!("{a} mm") } else { format!("{a}→{b} mm") }
 }
 
 fn unit(model: &Model) -> String {

@@ -31,7 +31,25 @@ impl Design {
         if let Some(only) = &self.given.only {
             file.set("only", choice(only));
         }
+        // What follows a table belongs to it, so it comes last.
+        self.rod_table(&mut file);
         file.text
+    }
+
+    /// The rods, where they have several diameters.
+    fn rod_table(&self, file: &mut TomlFile) {
+        if self.sizes.is_empty() {
+            return;
+        }
+        file.table("rod");
+        file.set("diameter", mm(self.rod));
+        file.table("rod.sizes");
+        let unnamed = [("border", self.sizes.border), ("all", self.sizes.all)];
+        let rods = self.sizes.rods.iter().map(|(rod, &ends)| (rod.to_string(), ends));
+        let unnamed = unnamed.into_iter().filter_map(|(key, ends)| Some((key.to_owned(), ends?)));
+        for (key, [a, b]) in unnamed.chain(rods) {
+            if a == b { file.set(&key, mm(a)) } else { file.set(&key, vec![mm(a), mm(b)]) }
+        }
     }
 
     fn surface_settings(&self, file: &mut TomlFile) {
@@ -55,7 +73,9 @@ impl Design {
     }
 
     fn tile_settings(&self, file: &mut TomlFile, fit: &Fit) {
-        file.set("rod", mm(self.rod));
+        if self.sizes.is_empty() {
+            file.set("rod", mm(self.rod));
+        }
         let rotate = self.given.rotate.map_or_else(|| "0deg".into(), |a| a.to_string());
         match &self.tiles {
             Tiles::Pattern(pattern) => {
@@ -107,6 +127,10 @@ impl TomlFile {
     fn set(&mut self, key: &str, value: impl Into<toml::Value>) {
         let value: toml::Value = value.into();
         writeln!(self.text, "{key} = {value}").expect("writing to a string cannot fail");
+    }
+
+    fn table(&mut self, name: &str) {
+        writeln!(self.text, "\n[{name}]").expect("writing to a string cannot fail");
     }
 
     fn note(&mut self, text: &str) {

@@ -6,14 +6,17 @@
 
 mod file;
 mod resolve;
+mod rod;
 mod settings;
 
 pub use resolve::Folders;
+pub use rod::RodSetting;
 pub use settings::Settings;
 
 use crate::chart::Method;
 use crate::frame::close::Way;
 use crate::frame::layer::Layering;
+use crate::frame::sizes::SizeTable;
 use crate::pattern::{Pattern, PatternError, ShapeError};
 use crate::sheets::{Paper, PaperUnits};
 use crate::surface::component::Component;
@@ -120,8 +123,10 @@ pub struct Design {
     pub cut: Option<CutPlane>,
     /// Only this piece.
     pub component: Option<Component>,
-    /// Rod diameter.
+    /// The nominal diameter of the rods.
     pub rod: f64,
+    /// Rods of other diameters.
+    pub sizes: SizeTable,
     /// Longest horizontal side, if the model is to be scaled.
     pub span: Option<f64>,
     /// Tile edge, if it is not to be fitted.

@@ -32,7 +32,8 @@ impl Settings {
     /// [`DesignError`] with the setting, its value, and what would be allowed.
     pub fn resolve(self, folders: Folders) -> Result<Design, DesignError> {
         let surface = self.surface.clone().ok_or(DesignError::NoSurface)?;
-        let rod = positive("rod", self.rod)?.unwrap_or(DEFAULT_ROD);
+        let given = self.rod.clone().unwrap_or_default();
+        let rod = positive("rod", given.diameter)?.unwrap_or(DEFAULT_ROD);
         let tiles = self.tiles(&surface.to_string_lossy(), folders.pattern)?;
         self.check_fit_for(&tiles)?;
         Ok(Design {
@@ -42,6 +43,7 @@ impl Settings {
             cut: self.cut,
             component: self.component,
             rod,
+            sizes: given.sizes,
             span: match &tiles {
                 Tiles::Sphere(sphere) => Some(2.0 * sphere.radius),
                 _ => positive("span", self.span)?,

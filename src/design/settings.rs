@@ -1,6 +1,6 @@
 //! The settings as given, on the command line or in design.toml.
 
-use super::{DesignError, Part};
+use super::{DesignError, Part, RodSetting};
 use crate::chart::Method;
 use crate::frame::close::Way;
 use crate::frame::layer::Layering;
@@ -22,7 +22,7 @@ pub struct Settings {
 
     /// Rod diameter [default: 3mm]
     #[arg(long, value_name = "LENGTH")]
-    pub rod: Option<Length>,
+    pub rod: Option<RodSetting>,
 
     /// Longest horizontal side of the model [default: the file's own size, mm; 600mm for a
     /// sphere]
@@ -142,7 +142,10 @@ impl Settings {
     pub fn or(self, other: Self) -> Self {
         Self {
             surface: self.surface.or(other.surface),
-            rod: self.rod.or(other.rod),
+            rod: match (self.rod, other.rod) {
+                (Some(rod), Some(other)) => Some(rod.or(other)),
+                (rod, other) => rod.or(other),
+            },
             span: self.span.or(other.span),
             // A tiling goes with the pattern that it was named for.
             cycle: self.cycle.or(other.cycle.filter(|_| self.pattern.is_none())),

@@ -75,6 +75,7 @@ mod tests {
             layering,
             way: Way::default(),
             surface_low: -9.0,
+            sizes: Default::default(),
         };
         form(&canvas, &settings).unwrap()
     }

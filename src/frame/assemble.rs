@@ -4,15 +4,16 @@ use super::axis::Axis;
 use super::cut::{crossings, seats};
 use super::fault::Fault;
 use super::gaps::Joint;
+use super::sizes::Sizes;
 use super::weave::{RodEnd, Weave};
 use super::{Contact, Frame, Rod, Support, Unit};
 use crate::ids::{ContactId, IdVec, RodId};
 
-/// What a frame stands on. Lengths in mm.
+/// What a frame is made of and stands on. Lengths in mm.
 #[derive(Clone, Debug)]
 pub struct Ground {
-    /// Rod diameter.
-    pub diameter: f64,
+    /// How thick the rods are.
+    pub sizes: Sizes,
     /// Height of the ground.
     pub ground: f64,
     /// The rods that reach it.
@@ -53,6 +54,7 @@ pub fn assemble(
         .enumerate()
         .map(|(r, axis)| Rod {
             axis: *axis,
+            diameters: on.sizes.ends[r],
             units: weave.rods[r].units.clone(),
             border: weave.rods[r].ends.contains(&RodEnd::Free),
             contacts: seats[r].iter().map(|s| s.contact).collect(),
@@ -69,6 +71,6 @@ pub fn assemble(
             contacts: woven.contacts.clone(),
         })
         .collect();
-    let Ground { diameter, ground, supports } = on;
+    let Ground { sizes: Sizes { nominal: diameter, .. }, ground, supports } = on;
     Ok(Frame { diameter, ground, rods, contacts, units, supports, dropped: Vec::new() })
 }

@@ -94,13 +94,12 @@ impl Axis {
 
     /// The distance between two axes as segments, mm.
     pub fn distance(&self, other: &Self) -> f64 {
-        let [s, t] = self.nearest(other);
-        ((self.a + (self.b - self.a) * s) - (other.a + (other.b - other.a) * t)).norm()
+        self.nearest(other).1
     }
 
-    /// Where two axes as segments come nearest to each other: on either, 0 at A and 1 at B
-    /// (Ericson, *Real-Time Collision Detection*, 5.1.9).
-    pub fn nearest(&self, other: &Self) -> [f64; 2] {
+    /// Where two axes as segments are nearest, as shares of both from end A, and how near,
+    /// mm (Ericson, *Real-Time Collision Detection*, 5.1.9).
+    pub fn nearest(&self, other: &Self) -> ([f64; 2], f64) {
         let (d1, d2, r) = (self.b - self.a, other.b - other.a, self.a - other.a);
         let (a, e, f) = (d1.norm_squared(), d2.norm_squared(), d2.dot(&r));
         let (b, c) = (d1.dot(&d2), d1.dot(&r));
@@ -118,7 +117,7 @@ impl Axis {
             t = 1.0;
             s = ((b - c) / a).clamp(0.0, 1.0);
         }
-        [s, t]
+        ([s, t], ((self.a + d1 * s) - (other.a + d2 * t)).norm())
     }
 }
 

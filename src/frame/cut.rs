@@ -7,6 +7,7 @@ use super::fault::Fault;
 use super::gaps::Joint;
 use super::weave::{RodEnd, Weave};
 use crate::ids::{ContactId, IdVec, RodId};
+use std::collections::BTreeMap;
 
 /// A contact as it lies along one rod.
 #[derive(Clone, Copy, Debug)]
@@ -65,14 +66,19 @@ pub fn seats(
     seats
 }
 
-/// Units of rods along which contacts came out of the order of the pattern, or nearer to
-/// each other than `apart` mm.
-pub fn disorder(weave: &Weave, seats: &IdVec<RodId, Vec<Seat>>, apart: f64) -> Vec<Fault> {
+/// Units of rods along which contacts came out of the order of the pattern, or two of them
+/// nearer to each other than the `room` that they need, mm.
+pub fn disorder(
+    weave: &Weave,
+    seats: &IdVec<RodId, Vec<Seat>>,
+    room: impl Fn(RodId, [ContactId; 2]) -> f64,
+) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (r, along) in seats.enumerate() {
         let rod = &weave.rods[r];
         let ordered = rod.contacts.iter().eq(along.iter().map(|s| &s.contact));
-        let spaced = along.windows(2).all(|s| s[1].at - s[0].at >= apart);
+        let spaced =
+            along.windows(2).all(|s| s[1].at - s[0].at >= room(r, [s[0].contact, s[1].contact]));
         if !ordered || !spaced {
             faults.push(Fault {
                 units: rod.units.clone(),
@@ -84,15 +90,21 @@ pub fn disorder(weave: &Weave, seats: &IdVec<RodId, Vec<Seat>>, apart: f64) -> V
     faults
 }
 
-/// Cuts a rod at its outermost contacts plus the overhang on each side, the length
-/// rounded up to a multiple of `round` mm (0: as it is). What rounding adds goes to
-/// both ends alike, so no contact moves; but an end that meets another stays where it is.
-pub fn cut(axis: &Axis, ends: [RodEnd; 2], seats: &[Seat], overhang: f64, round: f64) -> Axis {
+/// Cuts a rod at its outermost contacts plus the overhang on each side; `length` gives the
+/// length that it gets for the least one, mm. What that adds goes to both ends alike, so
+/// no contact moves; but an end that meets another stays where it is.
+pub fn cut(
+    axis: &Axis,
+    ends: [RodEnd; 2],
+    seats: &[Seat],
+    overhang: f64,
+    length: impl FnOnce(f64) -> f64,
+) -> Axis {
     let (first, last) = (seats.first(), seats.last());
     let beyond = ends.map(|end| if end == RodEnd::Meets { 0.0 } else { overhang });
     let from = first.map_or(0.0, |s| s.at) - beyond[0];
     let to = last.map_or(axis.length(), |s| s.at) + beyond[1];
-    let extra = rounded_up(to - from, round) - (to - from);
+    let extra = length(to - from) - (to - from);
     let share = match ends {
         [RodEnd::Meets, RodEnd::Meets] => [0.0, 0.0],
         [RodEnd::Meets, _] => [0.0, extra],
@@ -111,6 +123,36 @@ pub fn rounded_up(length: f64, step: f64) -> f64 {
     if step > 0.0 { (length / step - SAME_STEP).ceil() * step } else { length }
 }
 
+/// Gives rods lengths that are multiples of a step. Asked again for a rod whose least length
+/// has changed a little, it gives the same length as before where that will do: lengths
+/// near a multiple do not go back and forth then.
+#[derive(Clone, Debug)]
+pub struct Steps {
+    step: f64,
+    last: BTreeMap<RodId, f64>,
+}
+
+/// A length given before is kept up to so many steps above the least one. With one, a rod could
+/// go back and forth; with two, a rod may be sawn a whole step too long.
+const SPARE: f64 = 1.5;
+
+impl Steps {
+    /// Multiples of `step` mm; 0 for any length.
+    pub fn new(step: f64) -> Self {
+        Self { step, last: BTreeMap::new() }
+    }
+
+    /// The length of a rod that is at least `least` mm long.
+    pub fn length(&mut self, rod: RodId, least: f64) -> f64 {
+        let kept = self.last.get(&rod).copied().filter(|&last| {
+            last >= least - SAME_STEP * self.step && last < least + SPARE * self.step
+        });
+        let length = kept.unwrap_or_else(|| rounded_up(least, self.step));
+        self.last.insert(rod, length);
+        length
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -121,9 +163,10 @@ mod tests {
         let axis = Axis { a: [0.0; 3].into(), b: [40.25, 0.0, 0.0].into() };
         let seat = |contact, at| Seat { contact: ContactId::new(contact), at };
         let seats = [seat(0, 0.0), seat(1, 30.25)];
-        let both = cut(&axis, [RodEnd::Rests; 2], &seats, 6.0, 0.5);
+        let both = cut(&axis, [RodEnd::Rests; 2], &seats, 6.0, |least| rounded_up(least, 0.5));
         assert_eq!((both.a.x, both.b.x), (-6.125, 36.375));
-        let met = cut(&axis, [RodEnd::Meets, RodEnd::Rests], &seats, 6.0, 0.5);
+        let met =
+            cut(&axis, [RodEnd::Meets, RodEnd::Rests], &seats, 6.0, |least| rounded_up(least, 0.5));
         assert_eq!((met.a.x, met.b.x), (0.0, 36.5));
     }
 
@@ -133,5 +176,14 @@ mod tests {
         assert_eq!(rounded_up(10.5, 0.5), 10.5);
         assert_eq!(rounded_up(10.5 + 1e-9, 0.5), 10.5);
         assert_eq!(rounded_up(10.123, 0.0), 10.123);
+    }
+
+    #[test]
+    fn a_length_near_a_step_does_not_go_back_and_forth() {
+        let (mut steps, rod) = (Steps::new(0.5), RodId::new(3));
+        let given = [10.499, 10.501, 10.499, 10.501, 9.9].map(|least| steps.length(rod, least));
+        assert_eq!(given, [10.5, 11.0, 11.0, 11.0, 10.0]);
+        let mut exact = Steps::new(0.0);
+        assert_eq!([10.501, 10.499].map(|least| exact.length(rod, least)), [10.501, 10.499]);
     }
 }

@@ -134,6 +134,7 @@ mod tests {
             layering: Default::default(),
             way: crate::frame::close::Way::default(),
             surface_low: 0.0,
+            sizes: Default::default(),
         };
         form(&PlaneCanvas::new(chart, pattern, placement, pattern.usual()).unwrap(), &settings)
             .unwrap()

@@ -4,18 +4,17 @@
 use super::assemble::{Ground, assemble};
 use super::axis::Axis;
 use super::canvas::{Canvas, Sizing};
-use super::circuits::circuits;
 use super::clash::clashes;
-use super::close::bounds::Limits;
-use super::close::{CloseError, Closing, Task, Way, close};
+use super::close::{CloseError, Closing, close};
 use super::crop::{crop, held};
-use super::cut::{crossings, cut, disorder, seats};
+use super::cut::disorder;
 use super::fault::{Fault, cover};
 use super::gaps::Joint;
 use super::layer::{Layering, layer};
-use super::lift::{Parallel, lift};
-use super::stand::{Standing, ground_level, stand};
-use super::weave::{RodEnd, Weave, weave};
+use super::lift::{Lifted, Parallel, lift};
+use super::sizes::{SizeTable, Sizes, gap_between};
+use super::trim::{Lengths, Trimmed, Trimming, trim};
+use super::weave::{Weave, WovenContact, weave};
 use super::{ContactKind, Dropped, Frame};
 use crate::ids::{ContactId, Id, IdVec, RodId, TileId, UnitId};
 use crate::linalg::LinalgError;
@@ -23,18 +22,18 @@ use std::collections::BTreeSet;
 use thiserror::Error;
 
 /// What a frame is made from, besides its canvas. Lengths in mm.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct FormSettings {
-    /// Rod diameter.
+    /// The nominal diameter of the rods.
     pub diameter: f64,
+    /// Rods of other diameters.
+    pub sizes: SizeTable,
     /// Rod left beyond its last contact.
     pub overhang: f64,
     /// Rod lengths are multiples of this; 0 for any length.
     pub round: f64,
     /// Who goes over.
     pub layering: Layering,
-    /// How contacts are closed.
-    pub way: Way,
     /// The lowest height of the surface.
     pub surface_low: f64,
 }
@@ -98,6 +97,12 @@ pub enum FormError {
         first: String,
         advice: &'static str,
     },
+    /// A rod is given a diameter and is not there.
+    #[error(
+        "a diameter is given for rod {rod}, but the frame has {rods} rods: the last one is {last}. \
+         Give the number of a rod that is there, or leave {rod} out"
+    )]
+    NoSuchRod { rod: RodId, rods: usize, last: RodId },
     /// Rods have more contacts than they can meet.
     #[error(
         "{contacts} contacts are more than {rods} straight rods can meet at once. Use a pattern \
@@ -124,6 +129,10 @@ const AT_ONCE: usize = 40;
 /// there is no room for the two rods side by side.
 const ENGAGEMENT: f64 = 1.0;
 
+/// Rounds of closing and cutting rods that taper before giving up. A taper of a hundredth takes
+/// seven.
+const MOST_ROUNDS: usize = 20;
+
 /// Longest piece added to a rod so that it stands on the ground, in tile edges.
 const REACH: f64 = 1.5;
 
@@ -142,7 +151,7 @@ pub fn form(canvas: &impl Canvas, settings: &FormSettings) -> Result<Formed, For
     if settings.layering != Layering::Auto || lost(&formed) == 0 {
         return formed;
     }
-    let follow = FormSettings { layering: Layering::Follow, ..*settings };
+    let follow = FormSettings { layering: Layering::Follow, ..settings.clone() };
     let following = form_layered(canvas, &follow);
     if lost(&following) < lost(&formed) { following } else { formed }
 }
@@ -228,20 +237,19 @@ fn unsolved(weave: &Weave, e: LinalgError) -> FormError {
 
 /// Refuses units whose contacts lie nearer together than the rods are thick, where
 /// they are too many to be left out.
-fn require_room(
-    canvas: &impl Canvas,
-    weave: &Weave,
-    settings: &FormSettings,
-) -> Result<(), FormError> {
-    let (edge, diameter) = (canvas.edge(), settings.diameter);
-    let apart = |pair: &[ContactId]| {
+fn require_room(canvas: &impl Canvas, weave: &Weave, sizes: &Sizes) -> Result<(), FormError> {
+    let (edge, diameter) = (canvas.edge(), sizes.nominal);
+    let apart = |rod: RodId, pair: &[ContactId]| {
         let [a, b] = [pair[0], pair[1]].map(|c| &weave.contacts[c]);
-        (a.unit == b.unit).then(|| (a.unit, (a.on.position - b.on.position).norm()))
+        let partner = |c: &WovenContact| if c.ending == rod { c.passing } else { c.ending };
+        // As far apart as they would be with rods of the nominal diameter beside each other.
+        let part = diameter / gap_between([a, b].map(|c| sizes.middle(partner(c))));
+        (a.unit == b.unit).then(|| (a.unit, (a.on.position - b.on.position).norm() * part))
     };
     let mut sides: Vec<(f64, usize)> =
         weave.units.iter().map(|unit| (f64::INFINITY, unit.sides)).collect();
-    for rod in &weave.rods {
-        for (unit, apart) in rod.contacts.windows(2).filter_map(apart) {
+    for (r, rod) in weave.rods.enumerate() {
+        for (unit, apart) in rod.contacts.windows(2).filter_map(|pair| apart(r, pair)) {
             let least = &mut sides[unit.index()].0;
             *least = least.min(apart);
         }
@@ -270,13 +278,24 @@ fn attempt(
             return Ok(Err(Failing { all, at_once }));
         }
     };
-    require_room(canvas, &weave, settings)?;
+    let sizes = sizes(&weave, settings)?;
+    require_room(canvas, &weave, &sizes)?;
     let tile_of = |(unit, reason)| (weave.units[unit].tile, reason);
     let failing = |faults: Vec<Fault>| Failing {
         all: cover(&faults).into_iter().map(tile_of).collect(),
         at_once: None,
     };
-    Ok(close_and_finish(&weave, canvas.edge(), settings)?.map_err(failing))
+    Ok(close_and_finish(&weave, canvas.edge(), settings, sizes)?.map_err(failing))
+}
+
+/// How thick the rods of a weave are.
+fn sizes(weave: &Weave, settings: &FormSettings) -> Result<Sizes, FormError> {
+    let rods = weave.rods.len();
+    Sizes::new(weave, &settings.sizes, settings.diameter).map_err(|rod| FormError::NoSuchRod {
+        rod,
+        rods,
+        last: RodId::new(rods - 1),
+    })
 }
 
 /// The frame of a weave, or what is wrong with which of its units.
@@ -284,6 +303,7 @@ fn close_and_finish(
     weave: &Weave,
     edge: f64,
     settings: &FormSettings,
+    sizes: Sizes,
 ) -> Result<Result<Formed, Vec<Fault>>, FormError> {
     let lifted = match lift(weave) {
         Ok(lifted) => lifted,
@@ -292,24 +312,27 @@ fn close_and_finish(
         }
     };
     let rises = lifted.rises(weave);
-    let resting = joints(weave, &rises.iter().map(|_| true).collect(), settings.diameter);
+    let &FormSettings { overhang, round, surface_low, .. } = settings;
+    let how = Trimming { overhang, reach: REACH * edge, surface_low, sizes: &sizes };
+    let gaps = first_gaps(weave, &lifted, &how, round);
+    let resting = joints(weave, &rises.iter().map(|_| true).collect(), &gaps);
     let over = match layer(&lifted.axes, &resting, &rises, settings.layering) {
         Ok(over) => over,
         Err(c) => return Ok(Err(vec![open_contact(weave, c)])),
     };
-    let joints = joints(weave, &over, settings.diameter);
-    let closed = close_as(weave, &lifted.axes, &joints, (edge, settings), settings.way)?;
-    let closed = match closed {
-        // The least move may do where steps that shape the units led into trouble.
-        Err(faults) if settings.way == Way::Shape => {
-            match close_as(weave, &lifted.axes, &joints, (edge, settings), Way::Least)? {
-                Err(others) if others.len() >= faults.len() => Err(faults),
-                least => least,
-            }
-        }
-        closed => closed,
+    let mut joints = joints(weave, &over, &gaps);
+    let mut axes = lifted.axes.clone();
+    let (closing, trimmed) = match close_to_size(weave, &mut axes, &mut joints, &how, round)? {
+        Ok(done) => done,
+        Err(faults) => return Ok(Err(faults)),
     };
-    Ok(closed.map(|Closed { frame, closing, moves }| Formed {
+    let moves = lifted
+        .axes
+        .iter()
+        .zip(&axes)
+        .flat_map(|(old, new)| [(new.a - old.a).norm(), (new.b - old.b).norm()])
+        .collect();
+    Ok(finish(weave, trimmed, &joints, sizes).map(|frame| Formed {
         frame,
         tiles: weave.units.iter().map(|unit| unit.tile).collect(),
         closing,
@@ -319,52 +342,55 @@ fn close_and_finish(
     }))
 }
 
-/// A frame that is closed and cut.
-struct Closed {
-    frame: Frame,
-    closing: Closing,
-    /// How far rod ends moved, mm.
-    moves: Vec<f64>,
-}
-
-/// Closes and cuts lifted axes; or what is wrong with which units.
-fn close_as(
-    weave: &Weave,
-    lifted: &IdVec<RodId, Axis>,
-    joints: &IdVec<ContactId, Joint>,
-    (edge, settings): (f64, &FormSettings),
-    way: Way,
-) -> Result<Result<Closed, Vec<Fault>>, FormError> {
-    let mut axes = lifted.clone();
-    let (circuits, limits) = (circuits(weave), limits(weave, settings));
-    let task = Task { joints, circuits: &circuits, limits: Some(&limits), edge };
-    let closing = match close(&mut axes, &task, way) {
-        Ok(closing) => closing,
-        Err(CloseError::Linear(e)) => return Err(unsolved(weave, e)),
-        Err(CloseError::Parallel(c)) => return Ok(Err(vec![open_contact(weave, c)])),
-        Err(CloseError::Diverged { open }) => {
-            return Ok(Err(open.into_iter().map(|c| open_contact(weave, c)).collect()));
-        }
-    };
-    let moves = lifted
-        .iter()
-        .zip(axes.iter())
-        .flat_map(|(old, new)| [(new.a - old.a).norm(), (new.b - old.b).norm()])
-        .collect();
-    let frame = finish(weave, &axes, joints, edge, settings);
-    Ok(frame.map(|frame| Closed { frame, closing, moves }))
-}
-
-/// What closing has to keep: the frame is cut and checked for it afterwards.
-fn limits(weave: &Weave, settings: &FormSettings) -> Limits {
-    let FormSettings { diameter, overhang, round, .. } = *settings;
-    let beyond = |end| if end == RodEnd::Meets { 0.0 } else { overhang + round / 2.0 };
-    Limits {
-        along: weave.rods.iter().map(|rod| rod.contacts.clone()).collect(),
-        room: ENGAGEMENT * diameter,
-        beyond: weave.rods.iter().map(|rod| rod.ends.map(beyond)).collect(),
-        thickness: weave.rods.iter().map(|_| diameter).collect(),
+/// The gaps of all contacts before it is known who goes over. Where rods taper, the contacts
+/// lie about where they do before closing.
+fn first_gaps(weave: &Weave, lifted: &Lifted, how: &Trimming, round: f64) -> IdVec<ContactId, f64> {
+    let between =
+        |c: &WovenContact| gap_between([c.ending, c.passing].map(|r| how.sizes.middle(r)));
+    let midway = weave.contacts.iter().map(between).collect();
+    if !how.sizes.are_tapered() {
+        return midway;
     }
+    let resting = joints(weave, &weave.contacts.iter().map(|_| true).collect(), &midway);
+    // What is wrong here comes out again when the contacts are closed.
+    trim(weave, &lifted.axes, &resting, how, &mut Lengths::new(round))
+        .map_or(midway, |trimmed| trimmed.diameters.iter().copied().map(gap_between).collect())
+}
+
+/// Closes the axes and cuts them to length; where rods taper, again until every gap is that of
+/// the rods where they touch.
+fn close_to_size(
+    weave: &Weave,
+    axes: &mut IdVec<RodId, Axis>,
+    joints: &mut IdVec<ContactId, Joint>,
+    how: &Trimming,
+    round: f64,
+) -> Result<Result<(Closing, Trimmed), Vec<Fault>>, FormError> {
+    let mut lengths = Lengths::new(round);
+    let mut unsettled = Vec::new();
+    for _ in 0..MOST_ROUNDS {
+        let closing = match close(axes, joints) {
+            Ok(closing) => closing,
+            Err(CloseError::Linear(e)) => return Err(unsolved(weave, e)),
+            Err(CloseError::Parallel(c)) => return Ok(Err(vec![open_contact(weave, c)])),
+            Err(CloseError::Diverged { open }) => {
+                return Ok(Err(open.into_iter().map(|c| open_contact(weave, c)).collect()));
+            }
+        };
+        let trimmed = match trim(weave, axes, joints, how, &mut lengths) {
+            Ok(trimmed) => trimmed,
+            Err(fault) => return Ok(Err(vec![fault])),
+        };
+        unsettled = how.sizes.refit(joints, &trimmed.diameters);
+        if unsettled.is_empty() {
+            return Ok(Ok((closing, trimmed)));
+        }
+    }
+    let fault = |c: ContactId| Fault {
+        units: vec![weave.contacts[c].unit],
+        reason: "its rods taper so much that the places where they touch do not settle".into(),
+    };
+    Ok(Err(unsettled.into_iter().map(fault).collect()))
 }
 
 fn open_contact(weave: &Weave, contact: ContactId) -> Fault {
@@ -375,7 +401,7 @@ fn open_contact(weave: &Weave, contact: ContactId) -> Fault {
 fn joints(
     weave: &Weave,
     ending_over: &IdVec<ContactId, bool>,
-    diameter: f64,
+    gaps: &IdVec<ContactId, f64>,
 ) -> IdVec<ContactId, Joint> {
     weave
         .contacts
@@ -389,51 +415,43 @@ fn joints(
                 }
                 kind => kind,
             };
-            Joint { over, under, outward: c.on.normal, diameter, kind }
+            Joint { over, under, outward: c.on.normal, diameter: gaps[id], kind }
         })
         .collect()
 }
 
-/// Cuts the closed axes, checks them, lets them stand, and puts the frame together.
+/// Checks the rods and puts the frame together.
 fn finish(
     weave: &Weave,
-    closed: &IdVec<RodId, Axis>,
+    trimmed: Trimmed,
     joints: &IdVec<ContactId, Joint>,
-    edge: f64,
-    settings: &FormSettings,
+    sizes: Sizes,
 ) -> Result<Frame, Vec<Fault>> {
-    let FormSettings { diameter, overhang, round, .. } = *settings;
-    let crossings = crossings(weave, closed, joints).map_err(|f| vec![f])?;
-    let along = seats(closed.len(), joints, &crossings);
-    let faults = disorder(weave, &along, ENGAGEMENT * diameter);
+    let Trimmed { along, cut, axes, diameters, ground, supports } = trimmed;
+    // The rods that lie beside each other on a rod have to have room there.
+    let beside = |rod, c: ContactId| diameters[c][usize::from(joints[c].over == rod)];
+    let room = |rod, pair: [ContactId; 2]| ENGAGEMENT * gap_between(pair.map(|c| beside(rod, c)));
+    let faults = disorder(weave, &along, room);
     if !faults.is_empty() {
         return Err(faults);
     }
-    let ends = |r: RodId| weave.rods[r].ends;
-    let mut axes: IdVec<RodId, Axis> = closed
-        .enumerate()
-        .map(|(r, axis)| cut(axis, ends(r), &along[r], overhang, round))
-        .collect();
     let pairs: BTreeSet<[RodId; 2]> =
         joints.iter().map(|j| [j.over.min(j.under), j.over.max(j.under)]).collect();
-    let faults = clash_faults(weave, &axes, diameter, &pairs);
+    let faults = clash_faults(weave, &cut, &sizes.ends, &pairs);
     if !faults.is_empty() {
         return Err(faults);
     }
-    let ground = ground_level(settings.surface_low, &axes);
-    let how = Standing { ground, reach: REACH * edge, diameter, round };
-    let supports = stand(weave, &mut axes, &how);
-    let on = Ground { diameter, ground, supports };
+    let on = Ground { sizes, ground, supports };
     assemble(weave, &axes, joints, on).map_err(|fault| vec![fault])
 }
 
 fn clash_faults(
     weave: &Weave,
     axes: &IdVec<RodId, Axis>,
-    diameter: f64,
+    sizes: &IdVec<RodId, [f64; 2]>,
     pairs: &BTreeSet<[RodId; 2]>,
 ) -> Vec<Fault> {
-    clashes(axes, diameter, pairs)
+    clashes(axes, sizes, pairs)
         .iter()
         .map(|clash| {
             let units = clash.rods.iter().flat_map(|&r| weave.rods[r].units.clone()).collect();

@@ -168,7 +168,8 @@ impl System {
         });
         let diameter = self.rows[*places.first()?].diameter;
         let residual = residual.collect();
-        Some((places, Choice::new(k, signs, residual, diameter)?))
+        let wanted = places.iter().map(|&row| self.rows[row].wanted).collect();
+        Some((places, Choice::new(k, signs, residual, wanted, diameter)?))
     }
 
     fn is_of(&self, row: usize, contact: ContactId) -> bool {

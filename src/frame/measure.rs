@@ -2,7 +2,7 @@
 
 use super::form::Formed;
 use super::guide::Guide;
-use super::{Contact, ContactKind, Frame};
+use super::{Contact, Frame};
 use crate::ids::{ContactId, IdVec};
 use crate::surface::Point3;
 use serde::Serialize;
@@ -25,7 +25,7 @@ pub struct Measures {
     pub lengths: [f64; 2],
     /// Number of different rod lengths.
     pub distinct_lengths: usize,
-    /// Largest error of a gap, as part of the rod diameter.
+    /// Largest error of a gap, as part of the nominal diameter.
     pub worst_gap: f64,
     /// How far rod ends moved in closing, in rod diameters.
     pub moves: Spread,
@@ -82,10 +82,7 @@ pub fn measure(formed: &Formed, guide: &Guide) -> Measures {
     lengths.sort_by(f64::total_cmp);
     let distinct = lengths.windows(2).filter(|l| l[1] - l[0] > SAME_LENGTH).count();
     let w = frame.diameter;
-    let gap_error = |c: &Contact| match c.kind {
-        ContactKind::Cross => (c.gap - w).abs() / w,
-        ContactKind::End(_) => c.gap / w,
-    };
+    let gap_error = |c: &Contact| (c.gap - frame.wanted_gap(c)).abs() / w;
     let middles: IdVec<ContactId, Point3> =
         frame.contacts.ids().map(|c| frame.contact_middle(c)).collect();
     let (angles, sides) = regularity(frame, &middles);

@@ -22,18 +22,21 @@ pub mod layer;
 pub mod lift;
 pub mod measure;
 pub mod plane_rods;
+pub mod sizes;
 pub mod stand;
+pub mod trim;
 pub mod weave;
 
 use crate::chart::SurfacePoint;
 use crate::ids::{ContactId, IdVec, RodId, UnitId};
 use crate::surface::{Point3, Vector3};
 use axis::Axis;
+use sizes::{diameter_at, gap_between};
 
 /// A finished reciprocal frame. Lengths in mm, angles in radians, z up.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// Diameter of every rod.
+    /// The nominal diameter of the rods: errors and moves are expressed by it.
     pub diameter: f64,
     /// Height of the ground.
     pub ground: f64,
@@ -49,11 +52,13 @@ pub struct Frame {
     pub dropped: Vec<Dropped>,
 }
 
-/// A straight round stick.
+/// A straight round stick, which may taper.
 #[derive(Clone, Debug)]
 pub struct Rod {
     /// The axis; it starts at end A, the numbered end.
     pub axis: Axis,
+    /// Diameters at end A and at end B; it tapers evenly between them.
+    pub diameters: [f64; 2],
     /// The units that it belongs to: two where they share it.
     pub units: Vec<UnitId>,
     /// Whether an end of it is free: it is at the border of the frame.
@@ -65,7 +70,7 @@ pub struct Rod {
 /// How two rods touch.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ContactKind {
-    /// One crosses over the other, the axes a diameter apart.
+    /// One crosses over the other, the axes both radii apart.
     Cross,
     /// Two ends meet, that of the over rod first; over and under only name the rods.
     End([End; 2]),
@@ -86,7 +91,7 @@ pub struct Contact {
     pub at_under: f64,
     /// Between the axes, 0 to π/2.
     pub angle: f64,
-    /// Distance of the axes: a diameter, and 0 where ends meet.
+    /// Distance of the axes: the sum of the radii there, and 0 where ends meet.
     pub gap: f64,
     /// Unit normal of the guiding surface at the contact.
     pub normal: Vector3,
@@ -158,7 +163,50 @@ pub struct Dropped {
     pub reason: String,
 }
 
+impl Rod {
+    /// The diameter at a distance from end A, mm.
+    pub fn diameter_at(&self, s: f64) -> f64 {
+        diameter_at(self.diameters, s / self.axis.length())
+    }
+
+    /// The diameter at an end, mm.
+    pub fn diameter_of(&self, end: End) -> f64 {
+        match end {
+            End::A => self.diameters[0],
+            End::B => self.diameters[1],
+        }
+    }
+
+    /// Whether it is thicker at one end than at the other.
+    pub fn is_tapered(&self) -> bool {
+        self.diameters[0] != self.diameters[1]
+    }
+
+    /// The diameter at its thicker end, mm.
+    pub fn thickest(&self) -> f64 {
+        self.diameters[0].max(self.diameters[1])
+    }
+}
+
 impl Frame {
+    /// How far apart the axes of a contact are to be, mm: by the two radii where it lies,
+    /// and not at all where ends meet.
+    pub fn wanted_gap(&self, contact: &Contact) -> f64 {
+        let Contact { over, under, at_over, at_under, .. } = *contact;
+        match contact.kind {
+            ContactKind::Cross => gap_between([
+                self.rods[over].diameter_at(at_over),
+                self.rods[under].diameter_at(at_under),
+            ]),
+            ContactKind::End(_) => 0.0,
+        }
+    }
+
+    /// The diameter of the thickest rod, mm.
+    pub fn thickest(&self) -> f64 {
+        self.rods.iter().map(Rod::thickest).reduce(f64::max).unwrap_or(self.diameter)
+    }
+
     /// A contact as `rod`, one of its two rods, sees it.
     pub fn seen_from(&self, contact: ContactId, rod: RodId) -> Mating {
         let c = &self.contacts[contact];

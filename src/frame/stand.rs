@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::clash::is_clear;
-use super::cut::rounded_up;
+use super::cut::Steps;
 use super::weave::{RodEnd, Weave};
 use super::{End, Support};
 use crate::ids::{IdVec, RodId};
@@ -20,24 +20,29 @@ pub fn ground_level(surface_low: f64, axes: &IdVec<RodId, Axis>) -> f64 {
 
 /// How rods may be let down.
 #[derive(Clone, Copy, Debug)]
-pub struct Standing {
+pub struct Standing<'a> {
     /// Height of the ground, mm.
     pub ground: f64,
     /// Longest piece that may be added to a rod, mm.
     pub reach: f64,
-    /// Rod diameter, mm.
-    pub diameter: f64,
-    /// Rod lengths are multiples of this, mm; 0 for any length.
-    pub round: f64,
+    /// Diameters of the rods at end A and at end B, mm.
+    pub sizes: &'a IdVec<RodId, [f64; 2]>,
 }
 
 /// Lengthens border rods at end A down to the ground, one after the other, where
 /// they are steep enough, near enough, and stay clear of all other rods.
-pub fn stand(weave: &Weave, axes: &mut IdVec<RodId, Axis>, how: &Standing) -> Vec<Support> {
+pub fn stand(
+    weave: &Weave,
+    axes: &mut IdVec<RodId, Axis>,
+    how: &Standing,
+    lengths: &mut Steps,
+) -> Vec<Support> {
     let mut supports = Vec::new();
     for r in weave.rods.ids().filter(|&r| weave.rods[r].ends[0] == RodEnd::Free) {
-        let Some(longer) = let_down(&axes[r], how) else { continue };
-        if is_clear(&longer, axes, how.diameter, &with_partners(weave, r)) {
+        let Some(longer) = let_down(&axes[r], how, |least| lengths.length(r, least)) else {
+            continue;
+        };
+        if is_clear((r, &longer), axes, how.sizes, &with_partners(weave, r)) {
             axes[r] = longer;
             supports.push(Support { rod: r, end: End::A, point: longer.a });
         }
@@ -51,8 +56,8 @@ fn with_partners(weave: &Weave, rod: RodId) -> BTreeSet<RodId> {
     contacts.flat_map(|c| [c.ending, c.passing]).collect()
 }
 
-/// The rod with end A on the ground; what rounding adds goes to end B.
-fn let_down(axis: &Axis, how: &Standing) -> Option<Axis> {
+/// The rod with end A on the ground; what its `length` is above the least one goes to end B.
+fn let_down(axis: &Axis, how: &Standing, length: impl FnOnce(f64) -> f64) -> Option<Axis> {
     let down = -axis.direction();
     let height = axis.a.z - how.ground;
     if -down.z < LEAST_SLOPE || height < 0.0 {
@@ -64,20 +69,24 @@ fn let_down(axis: &Axis, how: &Standing) -> Option<Axis> {
     }
     let mut foot = axis.at(-added);
     foot.z = how.ground;
-    let length = rounded_up(added + axis.length(), how.round);
+    let length = length(added + axis.length());
     Some(Axis { a: foot, b: foot - down * length })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::frame::cut::rounded_up;
 
-    const HOW: Standing = Standing { ground: -1.0, reach: 20.0, diameter: 3.0, round: 0.5 };
+    fn down(axis: &Axis) -> Option<Axis> {
+        let how = Standing { ground: -1.0, reach: 20.0, sizes: &IdVec::new() };
+        let_down(axis, &how, |least| rounded_up(least, 0.5))
+    }
 
     #[test]
     fn a_steep_rod_comes_to_stand_with_a_round_length() {
         let axis = Axis { a: [0.0, 0.0, 5.0].into(), b: [30.0, 0.0, 45.0].into() };
-        let down = let_down(&axis, &HOW).unwrap();
+        let down = down(&axis).unwrap();
         assert_eq!(down.a.z, -1.0);
         assert!((down.length() - 57.5).abs() < 1e-9, "50 and 7.5: {}", down.length());
         assert!((down.direction() - axis.direction()).norm() < 1e-12);
@@ -90,7 +99,7 @@ mod tests {
             ([0.0, 0.0, 50.0], [0.0, 1.0, 90.0]),
             ([0.0, 0.0, 45.0], [0.0, 0.0, 5.0]),
         ] {
-            assert!(let_down(&Axis { a: a.into(), b: b.into() }, &HOW).is_none());
+            assert!(down(&Axis { a: a.into(), b: b.into() }).is_none());
         }
     }
 }

@@ -4,10 +4,11 @@ use super::format::counted;
 use super::legend::{CALIBRATION, RULER_WIDTH, calibration_box, ruler, ruler_down, sign};
 use super::page::{BODY, Flow, HEADING, Leaf, SMALL};
 use super::view::View;
-use super::{SheetError, SheetSettings};
+use super::{PaperUnits, SheetError, SheetSettings};
 use crate::drawing::font::{LEADING, fit_size, wrap};
 use crate::drawing::{Draw, Point, Rect, Weight};
 use crate::frame::{Chirality, ContactKind, Frame};
+use crate::shop::lengths::{are_mixed, diameters};
 use crate::shop::{CutPlan, Side, classes};
 
 /// Least height of the two views, mm.
@@ -192,6 +193,9 @@ fn facts(
         n => format!("{n} feet"),
     };
     block.text(&format!("{rods}, {contacts}, {feet}"), width)?;
+    if are_mixed(frame) {
+        block.text(&counts(frame, units), width)?;
+    }
     let turning = |c: Chirality| frame.units.iter().filter(|u| u.chirality == c).count();
     let (cw, ccw) = (turning(Chirality::Clockwise), turning(Chirality::CounterClockwise));
     let runs = match (cw, ccw) {
@@ -202,9 +206,9 @@ fn facts(
     block.text(&format!("{}; {runs}", counted(frame.units.len(), "unit")), width)?;
 
     block.heading("To buy");
-    let diameter = units.measure(frame.diameter);
-    for (length, count) in plan.shopping() {
-        let line = format!("{count} × {}, Ø {diameter}, round", units.measure(length));
+    for bars in plan.shopping() {
+        let (length, diameter) = (units.measure(bars.length), units.diameter(bars.diameters));
+        let line = format!("{} × {length}, Ø {diameter}, round", bars.count);
         block.text(&line, width)?;
     }
     block.text(&format!("{} of rod in all", units.total(plan.used())), width)?;
@@ -213,7 +217,10 @@ fn facts(
     block.heading("Lengths");
     for class in classes.iter().take(LISTED_CLASSES) {
         let length = units.measure(class.length);
-        let line = format!("class {}: {} × {length}", class.name, class.rods.len());
+        let mut line = format!("class {}: {} × {length}", class.name, class.rods.len());
+        if are_mixed(frame) {
+            line = format!("{line}, Ø {}", units.diameter(class.diameters));
+        }
         block.text(&line, width)?;
     }
     if let more @ 1.. = classes.len().saturating_sub(LISTED_CLASSES) {
@@ -228,13 +235,20 @@ fn facts(
     Ok(block)
 }
 
+/// How many rods there are of each diameter.
+fn counts(frame: &Frame, units: PaperUnits) -> String {
+    let count = |(ends, n): ([f64; 2], usize)| format!("{n} of {}", units.diameter(ends));
+    let counts: Vec<String> = diameters(frame).into_iter().map(count).collect();
+    format!("{} diameter", counts.join(", "))
+}
+
 /// Width, depth and height over the rods' surfaces, from the ground up, mm.
 fn size(frame: &Frame) -> [f64; 3] {
     let [lo, hi] = frame.bounds();
     if frame.rods.is_empty() {
         return [0.0; 3];
     }
-    let w = frame.diameter;
+    let w = frame.thickest();
     [hi.x - lo.x + w, hi.y - lo.y + w, hi.z + w / 2.0 - frame.ground.min(lo.z)]
 }
 

@@ -7,7 +7,7 @@ use crate::drawing::font::text_width;
 use crate::drawing::{Color, Draw, DrawingError, Stroke, Weight};
 use crate::frame::Frame;
 use crate::ids::RodId;
-use crate::shop::{Bar, BarGroup, CutPlan, LengthClasses, classes};
+use crate::shop::{Bar, BarGroup, CutPlan, LengthClasses, Purchase, classes};
 
 /// Height of the picture of a bar, mm.
 const BAR: f64 = 4.0;
@@ -25,7 +25,7 @@ pub(super) fn cut_list(
     let mut flow = Flow::new(settings, "cut-list", "Cut list and sawing plan");
     let classes = classes(frame);
     flow.heading("Rods by length", 20.0);
-    flow.table(&class_table(&classes, settings))?;
+    flow.table(&class_table(&classes, plan.is_mixed(), settings))?;
     flow.heading("Sawing plan", 40.0);
     summary(&mut flow, plan)?;
     let mut first = 1;
@@ -36,7 +36,8 @@ pub(super) fn cut_list(
     Ok(flow.finish(None))
 }
 
-fn class_table(classes: &LengthClasses, settings: &SheetSettings) -> Table {
+/// The length classes, with their diameters where rods have several.
+fn class_table(classes: &LengthClasses, mixed: bool, settings: &SheetSettings) -> Table {
     let units = settings.units;
     let names = |rods: &[RodId]| rods.iter().map(RodId::to_string).collect::<Vec<_>>().join(" ");
     let rows = classes
@@ -44,23 +45,34 @@ fn class_table(classes: &LengthClasses, settings: &SheetSettings) -> Table {
         .map(|c| {
             let count = c.rods.len();
             let total = units.total(c.length * count as f64);
-            vec![c.name.clone(), units.length(c.length), count.to_string(), total, names(&c.rods)]
+            let mut row = vec![c.name.clone(), units.length(c.length), count.to_string(), total];
+            row.extend(mixed.then(|| units.diameter(c.diameters)));
+            row.push(names(&c.rods));
+            row
         })
         .collect();
-    let columns = vec![
+    let mut columns = vec![
         Column::text("class"),
         Column::figure("length"),
         Column::figure("count"),
         Column::figure("total"),
-        Column::wrapped("rods"),
     ];
+    columns.extend(mixed.then(|| Column::figure("Ø")));
+    columns.push(Column::wrapped("rods"));
     Table { columns, rows }
 }
 
 fn summary(flow: &mut Flow, plan: &CutPlan) -> Result<(), DrawingError> {
     let units = flow.units();
-    let stock: Vec<String> =
-        plan.shopping().iter().map(|(l, n)| format!("{n} × {}", units.measure(*l))).collect();
+    let bars = |p: &Purchase| {
+        let of = if plan.is_mixed() {
+            format!(" of Ø {}", units.diameter(p.diameters))
+        } else {
+            String::new()
+        };
+        format!("{} × {}{of}", p.count, units.measure(p.length))
+    };
+    let stock: Vec<String> = plan.shopping().iter().map(bars).collect();
     flow.paragraph(&format!(
         "{} from {} ({}). {}, each {} wide. {} of rod; waste {}.",
         counted(plan.pieces(), "piece"),
@@ -172,9 +184,13 @@ fn picture(
         "nothing left over".to_owned()
     };
     let page = flow.page();
-    let head = format!("{count} × {}", units.measure(bar.stock_length));
+    let mut head = format!("{count} × {}", units.measure(bar.stock_length));
+    if plan.is_mixed() {
+        head = format!("{head}, Ø {}", units.diameter(bar.diameters));
+    }
+    let beside = (text_width(&head, BODY + 0.4, Weight::Bold)? + 4.0).max(42.0);
     page.text([area.min[0], y + BODY + 0.5], BODY + 0.4, head).bold();
-    page.text([area.min[0] + 42.0, y + BODY + 0.5], BODY, numbers);
+    page.text([area.min[0] + beside, y + BODY + 0.5], BODY, numbers);
     page.text([area.max[0], y + BODY + 0.5], BODY, left).end();
     let (top, scale) = (y + 5.4, area.width() / bar.stock_length);
     page.rect([area.min[0], top], [area.width(), BAR], THIN.fill(Color::LIGHT_GREY));

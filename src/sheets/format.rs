@@ -1,5 +1,7 @@
 //! How figures are printed.
 
+use crate::frame::Frame;
+use crate::shop::lengths::diameters;
 use crate::units::MM_PER_INCH;
 use serde::{Deserialize, Serialize};
 
@@ -47,6 +49,27 @@ impl PaperUnits {
         format!("{} {}", self.length(mm), self.name())
     }
 
+    /// The diameter of a stick, given at end A and at end B, with its unit: `3.0 mm`, or
+    /// `6.0→4.0 mm` of one that tapers.
+    pub fn diameter(self, [a, b]: [f64; 2]) -> String {
+        if a == b { self.measure(a) } else { format!("{}→{}", self.length(a), self.measure(b)) }
+    }
+
+    /// The diameters of all rods of a frame; of many only the thinnest and the thickest.
+    pub fn diameters(self, frame: &Frame) -> String {
+        match &diameters(frame)[..] {
+            [] => self.measure(frame.diameter),
+            few if few.len() <= FEW_DIAMETERS => {
+                few.iter().map(|&(ends, _)| self.diameter(ends)).collect::<Vec<_>>().join(", ")
+            }
+            many => {
+                let all = || many.iter().flat_map(|(ends, _)| *ends);
+                let least = all().fold(f64::INFINITY, f64::min);
+                format!("{} to {}", self.length(least), self.measure(all().fold(least, f64::max)))
+            }
+        }
+    }
+
     /// A long length with its unit: metres, or feet.
     pub fn total(self, mm: f64) -> String {
         match self {
@@ -55,6 +78,9 @@ impl PaperUnits {
         }
     }
 }
+
+/// As many diameters are named one by one.
+const FEW_DIAMETERS: usize = 3;
 
 /// An angle given in radians, in degrees.
 pub(super) fn angle(radians: f64) -> String {
@@ -91,15 +117,29 @@ fn fixed(x: f64, decimals: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ids::Id;
 
     #[test]
     fn lengths_in_both_units() {
         assert_eq!(PaperUnits::Mm.measure(112.44), "112.4 mm");
         assert_eq!(PaperUnits::Inch.measure(254.0), "10.00 in");
+        assert_eq!(PaperUnits::Mm.diameter([5.0; 2]), "5.0 mm");
+        assert_eq!(PaperUnits::Mm.diameter([6.0, 4.0]), "6.0→4.0 mm");
         assert_eq!(PaperUnits::Mm.length(-0.04), "0.0");
         assert_eq!(PaperUnits::Mm.length(-0.06), "-0.1");
         assert_eq!(PaperUnits::Mm.total(12_345.0), "12.35 m");
         assert_eq!(PaperUnits::Inch.total(3048.0), "10.0 ft");
+    }
+
+    #[test]
+    fn diameters_of_a_frame_are_named_or_bounded() {
+        let mut frame = crate::shop::fixture::circuit(5, 3.0);
+        assert_eq!(PaperUnits::Mm.diameters(&frame), "3.0 mm");
+        frame.rods[Id::new(1)].diameters = [6.0, 4.0];
+        frame.rods[Id::new(2)].diameters = [5.0; 2];
+        assert_eq!(PaperUnits::Mm.diameters(&frame), "3.0 mm, 5.0 mm, 6.0→4.0 mm");
+        frame.rods[Id::new(3)].diameters = [2.0, 3.0];
+        assert_eq!(PaperUnits::Mm.diameters(&frame), "2.0 to 6.0 mm");
     }
 
     #[test]

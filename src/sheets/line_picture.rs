@@ -11,7 +11,7 @@ use super::band::rounded;
 use super::view::View;
 use crate::drawing::{Color, Draw, Item, Point, Rect, Stroke};
 use crate::frame::Frame;
-use crate::frame::axis::Axis;
+use crate::frame::sizes::diameter_at;
 use crate::surface::Point3;
 
 /// Thinnest line of a rod, mm.
@@ -39,6 +39,8 @@ struct Line {
     ends: [Point; 2],
     /// Nearness to the eye at both ends.
     depth: [f64; 2],
+    /// Width at both ends.
+    widths: [f64; 2],
     /// Stretches that are hidden, as shares of the line.
     hidden: Vec<[f64; 2]>,
 }
@@ -62,6 +64,10 @@ impl Line {
         self.depth[0] + (self.depth[1] - self.depth[0]) * share
     }
 
+    fn width_at(&self, share: f64) -> f64 {
+        diameter_at(self.widths, share).max(THINNEST)
+    }
+
     /// The stretches that are seen, as shares of the line.
     fn visible(&mut self) -> Vec<[f64; 2]> {
         self.hidden.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -82,10 +88,10 @@ impl Line {
 
 /// Draws the frame as large as it gets in `room`, and the closed lines `rims` below it.
 pub(super) fn draw(frame: &Frame, rims: &[Vec<Point3>], view: &View, room: Rect) -> Vec<Item> {
-    let axes: Vec<Axis> = frame.rods.iter().map(|r| r.axis).collect();
-    let points = axes.iter().flat_map(|x| [x.a, x.b]).chain(rims.iter().flatten().copied());
+    let ends = frame.rods.iter().flat_map(|r| [r.axis.a, r.axis.b]);
+    let points = ends.chain(rims.iter().flatten().copied());
     let Some(extent) = Rect::around(points.map(|p| view.project(&p))) else { return Vec::new() };
-    let extent = extent.inset(-frame.diameter / 2.0);
+    let extent = extent.inset(-frame.thickest() / 2.0);
     let scale = (0..2).map(|i| room.size()[i] / extent.size()[i]).fold(f64::INFINITY, f64::min);
     let (from, to) = (extent.center(), room.center());
     let place = |p: &Point3| {
@@ -96,17 +102,18 @@ pub(super) fn draw(frame: &Frame, rims: &[Vec<Point3>], view: &View, room: Rect)
     for rim in rims {
         items.polygon(thinned(rim.iter().map(place)), RIM);
     }
-    let mut lines: Vec<Line> = axes
+    let mut lines: Vec<Line> = frame
+        .rods
         .iter()
-        .map(|x| Line {
-            ends: [x.a, x.b].map(|p| place(&p)),
-            depth: [x.a, x.b].map(|p| view.depth(&p)),
+        .map(|rod| Line {
+            ends: [rod.axis.a, rod.axis.b].map(|p| place(&p)),
+            depth: [rod.axis.a, rod.axis.b].map(|p| view.depth(&p)),
+            widths: rod.diameters.map(|d| d * scale),
             hidden: Vec::new(),
         })
         .collect();
-    let width = (frame.diameter * scale).max(THINNEST);
-    hide(&mut lines, width);
-    stretches(&mut lines, width, &mut items);
+    hide(&mut lines);
+    stretches(&mut lines, &mut items);
     items
 }
 
@@ -122,13 +129,14 @@ fn thinned(points: impl Iterator<Item = Point>) -> Vec<Point> {
 }
 
 /// Marks what each line loses to the others.
-fn hide(lines: &mut [Line], width: f64) {
-    let clear = width / 2.0 + CLEAR.max(CLEAR_WIDTHS * width);
+fn hide(lines: &mut [Line]) {
     for i in 0..lines.len() {
         for j in i + 1..lines.len() {
             let Some(([s, t], sine)) = crossing(&lines[i], &lines[j]) else { continue };
-            let (far, at) =
-                if lines[i].depth_at(s) < lines[j].depth_at(t) { (i, s) } else { (j, t) };
+            let behind = lines[i].depth_at(s) < lines[j].depth_at(t);
+            let ((far, at), (near, by)) = if behind { ((i, s), (j, t)) } else { ((j, t), (i, s)) };
+            let (width, front) = (lines[far].width_at(at), lines[near].width_at(by));
+            let clear = front / 2.0 + CLEAR.max(CLEAR_WIDTHS * front);
             let sine = sine.max(GRAZING);
             // To the clear edge of the near rod, and on until the far rod's corner is past it.
             let half = (clear + width / 2.0 * (1.0 - sine * sine).sqrt()) / sine;
@@ -154,22 +162,23 @@ fn crossing(a: &Line, b: &Line) -> Option<([f64; 2], f64)> {
 }
 
 /// The visible stretches as lines, far ones first and lighter.
-fn stretches(lines: &mut [Line], width: f64, out: &mut Vec<Item>) {
+fn stretches(lines: &mut [Line], out: &mut Vec<Item>) {
     let depths = || lines.iter().flat_map(|l| l.depth);
     let (far, near) =
         (depths().fold(f64::INFINITY, f64::min), depths().fold(f64::NEG_INFINITY, f64::max));
-    let mut seen: Vec<(f64, [Point; 2])> = Vec::new();
+    let mut seen: Vec<(f64, [Point; 2], f64)> = Vec::new();
     for line in lines {
         let length = line.length();
         for [from, to] in line.visible() {
+            let width = line.width_at((from + to) / 2.0);
             if (to - from) * length > SPECK * width {
                 let ends = [from, to].map(|s| line.at(s).map(rounded));
-                seen.push((line.depth_at((from + to) / 2.0), ends));
+                seen.push((line.depth_at((from + to) / 2.0), ends, width));
             }
         }
     }
     seen.sort_by(|a, b| a.0.total_cmp(&b.0));
-    for (depth, [a, b]) in seen {
+    for (depth, [a, b], width) in seen {
         let nearness = if near > far { (depth - far) / (near - far) } else { 1.0 };
         let level = (FARTHEST * (1.0 - nearness)).round() as u8;
         out.line(a, b, Stroke::new(rounded(width)).color(Color::grey(level)));
@@ -183,7 +192,7 @@ mod tests {
     use crate::shop::fixture;
 
     fn line(ends: [Point; 2], depth: [f64; 2]) -> Line {
-        Line { ends, depth, hidden: Vec::new() }
+        Line { ends, depth, widths: [0.5; 2], hidden: Vec::new() }
     }
 
     #[test]
@@ -193,7 +202,7 @@ mod tests {
             line([[0.0, 0.0], [10.0, 0.0]], [1.0, 1.0]),
             line([[5.0, -5.0], [5.0, 5.0]], [-9.0, 5.0]),
         ];
-        hide(&mut lines, 0.5);
+        hide(&mut lines);
         assert_eq!(lines[0].visible(), [[0.0, 1.0]]);
         let seen = lines[1].visible();
         // Square to each other: half the rod and 0.2 mm on both sides of the middle.
@@ -210,7 +219,7 @@ mod tests {
             line([[11.0, -5.0], [11.0, 5.0]], [2.0, 2.0]),
             line([[0.0, 0.0], [0.0, 0.0]], [3.0, 3.0]),
         ];
-        hide(&mut lines, 0.5);
+        hide(&mut lines);
         assert!(lines.iter().all(|l| l.hidden.is_empty()));
     }
 

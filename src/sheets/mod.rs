@@ -95,7 +95,7 @@ pub fn sheets(
     leaves.extend(cut_list::cut_list(frame, plan, &settings)?);
     leaves.extend(rod_cards::rod_cards(frame, &settings)?);
     leaves.extend(support_tiles::overview(frame, &settings)?);
-    page::stamp(leaves, frame.diameter, &settings)
+    page::stamp(leaves, &settings.units.diameters(frame), &settings)
 }
 
 impl SheetSettings {

@@ -75,17 +75,17 @@ pub(super) fn printable(text: &str) -> String {
     text.chars().map(shown).collect()
 }
 
-/// Numbers the pages and gives each its title block.
+/// Numbers the pages and gives each its title block, with the rods' diameters.
 pub(super) fn stamp(
     leaves: Vec<Leaf>,
-    diameter: f64,
+    diameters: &str,
     settings: &SheetSettings,
 ) -> Result<Vec<Sheet>, SheetError> {
     let count = leaves.len();
     let digits = count.to_string().len().max(2);
     let mut sheets = Vec::with_capacity(count);
     for (i, mut leaf) in leaves.into_iter().enumerate() {
-        title_block(&mut leaf, i + 1, count, diameter, settings)?;
+        title_block(&mut leaf, i + 1, count, diameters, settings)?;
         let stem = format!("{:0digits$}-{}", i + 1, leaf.stem);
         sheets.push(Sheet { stem, page: Page::titled(leaf.drawing, leaf.title) });
     }
@@ -96,7 +96,7 @@ fn title_block(
     leaf: &mut Leaf,
     number: usize,
     count: usize,
-    diameter: f64,
+    diameters: &str,
     settings: &SheetSettings,
 ) -> Result<(), DrawingError> {
     let area = area(settings);
@@ -109,7 +109,7 @@ fn title_block(
 
     let scale = leaf.scale.as_ref().map_or(String::new(), |s| format!("scale {s} · "));
     let units = settings.units;
-    let facts = format!("rod Ø {} · {scale}lengths in {}", units.measure(diameter), units.plural());
+    let facts = format!("rod Ø {diameters} · {scale}lengths in {}", units.plural());
     let room = area.width() - text_width(&facts, BODY, Weight::Regular)? - 5.0;
     paper.text([left, top + 9.0], BODY, elide(&leaf.title, BODY, Weight::Regular, room)?);
     paper.text([right, top + 9.0], BODY, facts).end();

@@ -8,6 +8,7 @@ use crate::drawing::font::{LEADING, elide, text_width};
 use crate::drawing::{Anchor, Color, Draw, DrawingError, Item, Placement, Stroke, Weight};
 use crate::frame::{End, Frame};
 use crate::ids::RodId;
+use crate::shop::lengths::are_mixed;
 use crate::shop::{Foot, LengthClasses, Mark, Side, classes, feet, marks};
 use std::collections::BTreeMap;
 
@@ -41,6 +42,8 @@ pub(super) struct Book<'a> {
     frame: &'a Frame,
     classes: LengthClasses,
     feet: BTreeMap<RodId, Vec<Foot>>,
+    /// Whether each card has to say how thick its rod is.
+    mixed: bool,
     units: PaperUnits,
     width: f64,
 }
@@ -57,7 +60,7 @@ impl<'a> Book<'a> {
         for foot in feet(frame) {
             by_rod.entry(foot.rod).or_default().push(foot);
         }
-        Self { frame, classes: classes(frame), feet: by_rod, units, width }
+        Self { frame, classes: classes(frame), feet: by_rod, mixed: are_mixed(frame), units, width }
     }
 
     /// The card of a rod.
@@ -65,7 +68,7 @@ impl<'a> Book<'a> {
         let mut items = Vec::new();
         let marks = marks(self.frame, rod);
         let length = self.frame.rods[rod].axis.length();
-        let strip = Strip::new(length, self.frame.diameter, &marks, self.width);
+        let strip = Strip::new(length, self.frame.rods[rod].diameters, &marks, self.width);
         self.head(&mut items, rod, &strip)?;
         let mut y = HEAD;
         strip.draw(&mut items, [0.0, y], &marks, self.units)?;
@@ -92,7 +95,10 @@ impl<'a> Book<'a> {
         let base = NUMBER * 0.85;
         let mut x = text_width(&number, NUMBER, Weight::Bold)? + 5.0;
         items.text([0.0, base], NUMBER, number).bold();
-        let cut = format!("cut {}", self.units.measure(strip.length()));
+        let mut cut = format!("cut {}", self.units.measure(strip.length()));
+        if self.mixed {
+            cut = format!("{cut}, Ø {}", self.units.diameter(self.frame.rods[rod].diameters));
+        }
         items.text([x, base], 5.0, cut.as_str()).bold();
         x += text_width(&cut, 5.0, Weight::Bold)? + 5.0;
         let same = class.rods.len();

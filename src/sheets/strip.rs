@@ -25,8 +25,10 @@ const BREAK: f64 = 0.9;
 /// How a rod is laid out along the paper.
 pub(super) struct Strip {
     length: f64,
-    /// Rod thickness as drawn, mm.
+    /// Rod thickness as drawn, at its thicker end, mm.
     thickness: f64,
+    /// What its ends A and B are narrower, on either side, mm.
+    narrower: [f64; 2],
     /// End A, the marks and end B: distance from end A, and place on the paper from
     /// the left of the card.
     stops: Vec<(f64, f64)>,
@@ -36,7 +38,7 @@ pub(super) struct Strip {
 
 impl Strip {
     /// Lays a rod out on a card `width` mm wide.
-    pub fn new(length: f64, diameter: f64, marks: &[Mark], width: f64) -> Self {
+    pub fn new(length: f64, diameters: [f64; 2], marks: &[Mark], width: f64) -> Self {
         let room = width - BEFORE - AFTER;
         let at: Vec<f64> =
             [0.0].into_iter().chain(marks.iter().map(|m| m.at)).chain([length]).collect();
@@ -48,7 +50,10 @@ impl Strip {
             x += gap.min(cap);
             stops.push((s, x));
         }
-        Self { length, thickness: diameter.min(WIDEST), stops, cap }
+        let thickest = diameters[0].max(diameters[1]);
+        let thickness = thickest.min(WIDEST);
+        let narrower = diameters.map(|d| (1.0 - d / thickest) * thickness / 2.0);
+        Self { length, thickness, narrower, stops, cap }
     }
 
     /// Whether some stretch is drawn shorter than it is.
@@ -85,9 +90,9 @@ impl Strip {
     /// The outline of the rod, with break signs.
     fn rod(&self, out: &mut impl Draw, [x, top]: Point) {
         let (from, to) = (x + BEFORE, x + self.stops[self.stops.len() - 1].1);
-        out.rect(
-            [from, top],
-            [to - from, self.thickness],
+        let (bottom, [a, b]) = (top + self.thickness, self.narrower);
+        out.polygon(
+            [[from, top + a], [to, top + b], [to, bottom - b], [from, bottom - a]],
             Stroke::new(0.25).fill(Color::PALE_GREY),
         );
         for stops in self.stops.windows(2).filter(|w| self.breaks(w)) {

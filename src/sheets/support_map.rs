@@ -56,7 +56,7 @@ pub fn drawing(frame: &Frame, settings: &SheetSettings) -> Result<Drawing, Sheet
     let extent = map.extent(n);
     let title = format!("{}: support map", settings.model);
     let facts =
-        format!("seen from above · scale 1:{n} · rod Ø {}", settings.units.measure(frame.diameter));
+        format!("seen from above · scale 1:{n} · rod Ø {}", settings.units.diameters(frame));
     let words =
         text_width(&title, TITLE, Weight::Bold)?.max(text_width(&facts, BODY, Weight::Regular)?);
     let words = if map.feet.is_empty() { words.max(NO_FEET_WIDTH) } else { words };
@@ -87,7 +87,7 @@ pub fn pages(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Sheet>, Shee
     let settings = settings.checked()?;
     let mut leaves = support_tiles::overview(frame, &settings)?;
     leaves.extend(support_tiles::tiles(frame, &settings)?);
-    page::stamp(leaves, frame.diameter, &settings)
+    page::stamp(leaves, &settings.units.diameters(frame), &settings)
 }
 
 /// Height of a scale bar, mm.
@@ -117,13 +117,12 @@ pub(super) enum Numbers {
 pub(super) struct FootMap {
     pub feet: Vec<Foot>,
     pub middle: [f64; 2],
-    diameter: f64,
 }
 
 impl FootMap {
     pub fn new(frame: &Frame) -> Self {
         let middle = if frame.rods.is_empty() { [0.0; 2] } else { middle(frame) };
-        Self { feet: feet(frame), middle, diameter: frame.diameter }
+        Self { feet: feet(frame), middle }
     }
 
     /// n of the scale 1:n at which the map fits one sheet: 1, unless it is too large.
@@ -167,10 +166,11 @@ impl FootMap {
                 guides.line(at(foot), at(&self.feet[next.index]), chord);
             }
         }
-        let radius = self.diameter / 2.0 / n;
+        let radius = |foot: &Foot| foot.diameter / 2.0 / n;
         let small = n > 1.0;
         let feet = map.layer(FEET);
         for foot in &self.feet {
+            let radius = radius(foot);
             draw_foot(feet, foot, at(foot), radius, small);
             taken.push(Rect::new(at(foot), [0.0; 2]).inset(-reach(radius, small)));
             taken.push(arrow_box(foot, at(foot), radius, small));
@@ -180,7 +180,7 @@ impl FootMap {
         }
         for foot in &self.feet {
             let size = if small { SMALL } else { NUMBER };
-            let radius = reach(radius, small);
+            let radius = reach(radius(foot), small);
             if let Some(text) = number(foot, at(foot), radius, size, taken, numbers)? {
                 taken.push(text.extent()?);
                 map.layer(NUMBERS).push(text);

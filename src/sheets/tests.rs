@@ -5,7 +5,7 @@ use super::*;
 use crate::drawing::pdf::{DocumentInfo, render};
 use crate::drawing::{Drawing, Figure, Item, Rect, Shape, Text};
 use crate::ids::{Id, RodId};
-use crate::shop::lengths::cut_lengths;
+use crate::shop::lengths::sticks;
 use crate::shop::{Stock, cutlist, feet, fixture, marks};
 use std::sync::LazyLock;
 
@@ -19,9 +19,9 @@ fn settings(paper: Paper, units: PaperUnits) -> SheetSettings {
 }
 
 fn cut_plan(frame: &Frame) -> CutPlan {
-    let longest = cut_lengths(frame).iter().copied().fold(1000.0, f64::max);
+    let longest = sticks(frame).iter().map(|stick| stick.length).fold(1000.0, f64::max);
     let stock = Stock { lengths: vec![longest], kerf: 1.0 };
-    cutlist::plan(&cut_lengths(frame), &stock).unwrap()
+    cutlist::plan(&sticks(frame), &stock).unwrap()
 }
 
 fn pages_of(frame: &Frame, paper: Paper, units: PaperUnits) -> Vec<Sheet> {
@@ -142,7 +142,7 @@ fn long_rods_are_broken_but_keep_short_stretches() {
     let rod = RodId::new(0);
     frame.rods[rod].axis = frame.rods[rod].axis.between(0.0, 400.0);
     let marks = marks(&frame, rod);
-    let strip = strip::Strip::new(400.0, 3.0, &marks, 190.0);
+    let strip = strip::Strip::new(400.0, [3.0; 2], &marks, 190.0);
     assert!(strip.is_broken());
     assert!((strip.drawn_length() - (190.0 - 24.0)).abs() < 1e-9);
     let card = Book::new(&frame, PaperUnits::Mm, 190.0).card(rod).unwrap();
@@ -178,6 +178,42 @@ fn circles_of_the_support_map_are_where_the_feet_are() {
             assert!((from_first[1] - (foot.y - feet[0].y)).abs() < 1e-9);
         }
     }
+}
+
+/// The igloo with one thicker and one tapered rod: all that is said of them.
+#[test]
+fn rods_of_other_diameters_are_told_apart_on_every_paper() {
+    let mut frame = IGLOO.clone();
+    let [thick, tapered] = [frame.supports[0].rod, frame.supports[1].rod];
+    frame.rods[thick].diameters = [5.0; 2];
+    frame.rods[tapered].diameters = [6.0, 4.0];
+    let pages = pages_of(&frame, Paper::A4, PaperUnits::Mm);
+    let said: Vec<&str> =
+        pages.iter().flat_map(|s| texts(&s.page.drawing)).map(|t| t.string.as_str()).collect();
+    let rest = frame.rods.len() - 2;
+    for line in [
+        "rod Ø 3.0 mm, 5.0 mm, 6.0→4.0 mm".to_owned(),
+        format!("{rest} of 3.0 mm, 1 of 5.0 mm, 1 of 6.0→4.0 mm diameter"),
+        "mm, Ø 6.0→4.0 mm, round".to_owned(),
+    ] {
+        assert!(said.iter().any(|text| text.contains(&line)), "{line} is not said");
+    }
+    for (rod, diameter) in [(thick, "Ø 5.0 mm"), (tapered, "Ø 6.0→4.0 mm")] {
+        let card = Book::new(&frame, PaperUnits::Mm, 190.0).card(rod).unwrap();
+        let has = |i: &Item| matches!(i, Item::Text(t) if t.string.contains(diameter));
+        assert!(card.items.iter().any(has), "{diameter}");
+    }
+    let map = support_map::drawing(&frame, &settings(Paper::A4, PaperUnits::Mm)).unwrap();
+    let radii: Vec<f64> = map
+        .items()
+        .filter_map(|i| match i {
+            Item::Figure(Figure { shape: Shape::Circle { radius, .. }, .. }) => Some(*radius),
+            _ => None,
+        })
+        .collect();
+    let feet: Vec<f64> = feet(&frame).iter().map(|foot| foot.diameter / 2.0).collect();
+    assert_eq!((feet[0], feet[1], feet[2]), (2.5, 3.0, 1.5));
+    assert_eq!(radii[..feet.len()], feet);
 }
 
 /// Each foot is whole on some tile, and tiles agree on where it is.

@@ -7,7 +7,7 @@
 //! middles, which is right unless long pieces pass each other closely.
 
 use crate::drawing::{Cap, Color, Draw, Point, Rect, Stroke};
-use crate::frame::Frame;
+use crate::frame::{Frame, Mating};
 use crate::ids::RodId;
 use crate::surface::{Point3, Vector3};
 
@@ -70,7 +70,7 @@ impl View {
     fn extent(&self, frame: &Frame) -> Rect {
         let ends = frame.rods.iter().flat_map(|r| [r.axis.a, r.axis.b]);
         let bounds = Rect::around(ends.map(|p| self.project(&p)));
-        bounds.unwrap_or(Rect::new([0.0, 0.0], [1.0, 1.0])).inset(-frame.diameter / 2.0)
+        bounds.unwrap_or(Rect::new([0.0, 0.0], [1.0, 1.0])).inset(-frame.thickest() / 2.0)
     }
 
     /// Draws the frame into `room` at the largest round scale that fits, and returns
@@ -81,7 +81,6 @@ impl View {
         let n = round_scale(ratio);
         let (from, to) = (extent.center(), room.center());
         let place = |p: Point| [to[0] + (p[0] - from[0]) / n, to[1] + (p[1] - from[1]) / n];
-        let width = (frame.diameter / n).max(THINNEST);
 
         let mut pieces: Vec<Piece> =
             frame.rods.ids().flat_map(|rod| self.pieces(frame, rod)).collect();
@@ -97,6 +96,7 @@ impl View {
             };
             let level = (FARTHEST * (1.0 - near)).round() as u8;
             let line = piece.ends.map(|p| place(self.project(&p)));
+            let width = (piece.diameter / n).max(THINNEST);
             rod_piece(out, line, piece.open, width, Color::grey(level));
         }
         n
@@ -105,22 +105,23 @@ impl View {
     fn pieces(&self, frame: &Frame, rod: RodId) -> Vec<Piece> {
         let r = &frame.rods[rod];
         let length = r.axis.length();
-        let mut at: Vec<f64> = r.contacts.iter().map(|&c| frame.seen_from(c, rod).at).collect();
-        at.sort_by(f64::total_cmp);
+        let mut at: Vec<Mating> = r.contacts.iter().map(|&c| frame.seen_from(c, rod)).collect();
+        at.sort_by(|p, q| p.at.total_cmp(&q.at));
         let longest = match frame.rods.len() {
-            0..=MANY_RODS => FREE_PIECE * frame.diameter,
+            0..=MANY_RODS => FREE_PIECE * r.thickest(),
             _ => f64::INFINITY,
         };
         let mut pieces = Vec::new();
         let mut done = 0.0;
-        for (i, &s) in at.iter().enumerate() {
-            let next = at.get(i + 1).map_or(length, |n| (s + n) / 2.0);
-            let reach = CONTACT_PIECE * frame.diameter;
+        for (i, &Mating { at: s, partner, .. }) in at.iter().enumerate() {
+            let next = at.get(i + 1).map_or(length, |n| (s + n.at) / 2.0);
+            let reach = CONTACT_PIECE * r.thickest().max(frame.rods[partner].thickest());
             let (from, to) = ((s - reach).max(done), (s + reach).min(next));
             self.free(frame, rod, [done, from], longest, &mut pieces);
             let ends = [r.axis.at(from), r.axis.at(to)];
             let open = [from <= 0.0, to >= length];
-            pieces.push(Piece { ends, open, depth: self.depth(&r.axis.at(s)) });
+            let diameter = r.diameter_at((from + to) / 2.0);
+            pieces.push(Piece { ends, open, depth: self.depth(&r.axis.at(s)), diameter });
             done = to;
         }
         self.free(frame, rod, [done, length], longest, &mut pieces);
@@ -144,7 +145,8 @@ impl View {
             let ends = [axis.at(at(k)), axis.at(at(k + 1))];
             let open = [at(k) <= 0.0, at(k + 1) >= axis.length()];
             let depth = self.depth(&nalgebra::center(&ends[0], &ends[1]));
-            out.push(Piece { ends, open, depth });
+            let diameter = frame.rods[rod].diameter_at((at(k) + at(k + 1)) / 2.0);
+            out.push(Piece { ends, open, depth, diameter });
         }
     }
 }
@@ -155,6 +157,8 @@ struct Piece {
     /// Which of the two are ends of the rod; at the others another piece follows.
     open: [bool; 2],
     depth: f64,
+    /// In its middle, mm: pieces are short, and tapers are slight.
+    diameter: f64,
 }
 
 fn rod_piece(out: &mut impl Draw, [a, b]: [Point; 2], open: [bool; 2], width: f64, color: Color) {

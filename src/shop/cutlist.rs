@@ -8,7 +8,11 @@
 //! The number of bars is compared with the bound L2 of Martello and Toth (*Knapsack
 //! Problems*, 1990, section 8.3), which is never below ⌈Σ(ℓ + k)/(L + k)⌉. The plan is
 //! proven where the two agree; where they do not, a better one may or may not exist.
+//!
+//! Rods of different diameters are planned apart: no bar holds two of them. Rods that taper
+//! alike count as of one diameter.
 
+use super::lengths::{Stick, thinner};
 use crate::frame::measure::SAME_LENGTH;
 use crate::ids::{IdVec, RodId};
 
@@ -32,11 +36,24 @@ pub struct CutPlan {
     pub bound: usize,
 }
 
+/// Bars of one kind to buy.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Purchase {
+    /// Diameters of the rods sawn from them, at end A and at end B, mm.
+    pub diameters: [f64; 2],
+    /// Length, mm.
+    pub length: f64,
+    /// How many.
+    pub count: usize,
+}
+
 /// A bar of stock and what is sawn from it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Bar {
     /// Length as bought, mm.
     pub stock_length: f64,
+    /// Diameters of its rods at end A and at end B, mm.
+    pub diameters: [f64; 2],
     /// The pieces, from the bar's end on.
     pub pieces: Vec<Piece>,
     /// What is left over after the last cut, mm.
@@ -111,14 +128,33 @@ fn named(rods: &[RodId]) -> String {
     }
 }
 
-/// Plans how to saw rods of the given lengths (mm) from the stock.
+/// Plans how to saw rods from the stock, every diameter for itself, thin ones first.
 ///
 /// # Errors
 /// [`CutError`], if the stock is not usable or rods are longer than it.
-pub fn plan(lengths: &IdVec<RodId, f64>, stock: &Stock) -> Result<CutPlan, CutError> {
-    let longest = checked(lengths, stock)?;
+pub fn plan(sticks: &IdVec<RodId, Stick>, stock: &Stock) -> Result<CutPlan, CutError> {
+    let longest = checked(sticks, stock)?;
+    let mut rods: Vec<RodId> = sticks.ids().collect();
+    let diameters = |r: RodId| sticks[r].diameters;
+    rods.sort_by(|&a, &b| thinner(&diameters(a), &diameters(b)));
+    let mut plan = CutPlan { kerf: stock.kerf, bars: Vec::new(), bound: 0 };
+    for alike in rods.chunk_by(|&a, &b| diameters(a) == diameters(b)) {
+        let pieces = alike.iter().map(|&r| (r, sticks[r].length)).collect();
+        let (bars, bound) = plan_alike(pieces, diameters(alike[0]), stock, longest);
+        plan.bars.extend(bars);
+        plan.bound += bound;
+    }
+    Ok(plan)
+}
+
+/// The bars for pieces of one diameter, and the least number of them.
+fn plan_alike(
+    mut pieces: Vec<(RodId, f64)>,
+    diameters: [f64; 2],
+    stock: &Stock,
+    longest: f64,
+) -> (Vec<Bar>, usize) {
     let kerf = stock.kerf;
-    let mut pieces: Vec<(RodId, f64)> = lengths.enumerate().map(|(r, &l)| (r, l)).collect();
     // Lengths that differ by noise only count as equal, so that they are sawn in the
     // order of their numbers.
     let steps = |l: f64| (l / SAME_LENGTH).round();
@@ -132,18 +168,18 @@ pub fn plan(lengths: &IdVec<RodId, f64>, stock: &Stock) -> Result<CutPlan, CutEr
     for &begin in offers.iter().filter(|&&l| fits(needed, l)) {
         let bars: Vec<Bar> = best_fit(&pieces, begin, kerf)
             .into_iter()
-            .map(|open| open.on_shortest(&offers, kerf))
+            .map(|open| open.on_shortest(&offers, kerf, diameters))
             .collect();
         if best.as_ref().is_none_or(|b| bought(&bars) < bought(b) - SAME_LENGTH) {
             best = Some(bars);
         }
     }
     let sizes: Vec<f64> = pieces.iter().map(|p| p.1 + kerf).collect();
-    Ok(CutPlan { kerf, bars: best.unwrap_or_default(), bound: bound(&sizes, longest + kerf) })
+    (best.unwrap_or_default(), bound(&sizes, longest + kerf))
 }
 
 /// The longest stock, if the stock is usable and long enough.
-fn checked(lengths: &IdVec<RodId, f64>, stock: &Stock) -> Result<f64, CutError> {
+fn checked(sticks: &IdVec<RodId, Stick>, stock: &Stock) -> Result<f64, CutError> {
     if let Some(&bad) = stock.lengths.iter().find(|&&l| !(l > 0.0 && l.is_finite())) {
         return Err(CutError::StockLength(bad));
     }
@@ -151,12 +187,11 @@ fn checked(lengths: &IdVec<RodId, f64>, stock: &Stock) -> Result<f64, CutError> 
         return Err(CutError::Kerf(stock.kerf));
     }
     let longest = stock.lengths.iter().copied().reduce(f64::max).ok_or(CutError::NoStock)?;
-    let too_long: Vec<RodId> =
-        lengths.enumerate().filter(|&(_, &l)| !fits(l, longest)).map(|(r, _)| r).collect();
+    let too_long: Vec<RodId> = sticks.ids().filter(|&r| !fits(sticks[r].length, longest)).collect();
     if too_long.is_empty() {
         return Ok(longest);
     }
-    let needed = lengths.iter().copied().fold(0.0, f64::max);
+    let needed = sticks.iter().map(|stick| stick.length).fold(0.0, f64::max);
     // Cut lengths carry the noise of arithmetic, which would show in the message.
     let needed = (needed / SAME_LENGTH).round() * SAME_LENGTH;
     let needed = (needed * 1e3).ceil() / 1e3;
@@ -196,7 +231,7 @@ fn best_fit(pieces: &[(RodId, f64)], stock: f64, kerf: f64) -> Vec<OpenBar> {
 
 impl OpenBar {
     /// The bar on the shortest stock that holds it; `offers` longest first.
-    fn on_shortest(self, offers: &[f64], kerf: f64) -> Bar {
+    fn on_shortest(self, offers: &[f64], kerf: f64, diameters: [f64; 2]) -> Bar {
         let holds = |l: &&f64| fits(self.used, **l);
         let stock_length = offers.iter().rev().find(holds).copied().unwrap_or(self.used);
         let mut at = -kerf;
@@ -210,7 +245,7 @@ impl OpenBar {
             .collect();
         let beyond = stock_length - self.used;
         let left = if beyond <= kerf + SAME_LENGTH { 0.0 } else { beyond - kerf };
-        Bar { stock_length, pieces, left }
+        Bar { stock_length, diameters, pieces, left }
     }
 }
 
@@ -270,17 +305,25 @@ impl CutPlan {
         if self.bars.is_empty() { 0.0 } else { 1.0 - self.used() / self.bought() }
     }
 
-    /// How many bars of each stock length to buy, longest first.
-    pub fn shopping(&self) -> Vec<(f64, usize)> {
-        let mut list: Vec<(f64, usize)> = Vec::new();
-        for bar in &self.bars {
-            match list.iter_mut().find(|(length, _)| *length == bar.stock_length) {
-                Some((_, count)) => *count += 1,
-                None => list.push((bar.stock_length, 1)),
+    /// How many bars of each diameter and stock length to buy: thin ones first, of these
+    /// the longest first.
+    pub fn shopping(&self) -> Vec<Purchase> {
+        let mut list: Vec<Purchase> = Vec::new();
+        for &Bar { diameters, stock_length: length, .. } in &self.bars {
+            match list.iter_mut().find(|p| p.length == length && p.diameters == diameters) {
+                Some(purchase) => purchase.count += 1,
+                None => list.push(Purchase { diameters, length, count: 1 }),
             }
         }
-        list.sort_by(|a, b| b.0.total_cmp(&a.0));
+        list.sort_by(|a, b| {
+            thinner(&a.diameters, &b.diameters).then(b.length.total_cmp(&a.length))
+        });
         list
+    }
+
+    /// Whether its rods have more than one diameter.
+    pub fn is_mixed(&self) -> bool {
+        self.bars.windows(2).any(|pair| pair[0].diameters != pair[1].diameters)
     }
 
     /// Bars that are sawn alike, in the order of their first ones.
@@ -312,6 +355,7 @@ impl Bar {
 
     fn is_like(&self, other: &Bar) -> bool {
         self.stock_length == other.stock_length
+            && self.diameters == other.diameters
             && self.pieces.len() == other.pieces.len()
             && self
                 .pieces

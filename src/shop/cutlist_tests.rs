@@ -6,8 +6,17 @@ fn stock(lengths: &[f64], kerf: f64) -> Stock {
     Stock { lengths: lengths.to_vec(), kerf }
 }
 
+fn sticks(lengths: &[f64]) -> IdVec<RodId, Stick> {
+    lengths.iter().map(|&length| Stick { length, diameters: [3.0; 2] }).collect()
+}
+
 fn planned(lengths: &[f64], stock: &Stock) -> CutPlan {
-    plan(&lengths.to_vec().into(), stock).expect("all fit")
+    plan(&sticks(lengths), stock).expect("all fit")
+}
+
+/// What to buy, without diameters.
+fn bought(plan: &CutPlan) -> Vec<(f64, usize)> {
+    plan.shopping().iter().map(|p| (p.length, p.count)).collect()
 }
 
 #[test]
@@ -53,9 +62,9 @@ fn long_rods_need_a_bar_each_and_that_is_proven() {
 #[test]
 fn bars_become_the_shortest_stock_that_holds_them() {
     let p = planned(&[900.0, 400.0], &stock(&[1000.0, 500.0, 2000.0], 1.0));
-    assert_eq!(p.shopping(), [(1000.0, 1), (500.0, 1)]);
+    assert_eq!(bought(&p), [(1000.0, 1), (500.0, 1)]);
     let p = planned(&[400.0], &stock(&[1000.0, 400.0], 1.0));
-    assert_eq!((p.shopping(), p.cuts()), (vec![(400.0, 1)], 0));
+    assert_eq!((bought(&p), p.cuts()), (vec![(400.0, 1)], 0));
 }
 
 #[test]
@@ -67,7 +76,7 @@ fn alike_bars_are_folded() {
 
 #[test]
 fn rods_that_do_not_fit_are_named() {
-    let e = plan(&vec![100.0, 1200.0, 1300.5, 90.0].into(), &stock(&[500.0, 1000.0], 1.0))
+    let e = plan(&sticks(&[100.0, 1200.0, 1300.5, 90.0]), &stock(&[500.0, 1000.0], 1.0))
         .expect_err("two are too long");
     let text = e.to_string();
     assert!(text.contains("R002, R003 are longer") && text.contains("1300.5 mm"), "{text}");
@@ -118,9 +127,10 @@ proptest! {
         longest in 300.0..900.0f64,
         others in proptest::collection::vec(50.0..900.0f64, 0..3),
     ) {
-        let lengths: IdVec<RodId, f64> = halves.iter().map(|&h| f64::from(h) * 0.5).collect();
+        let lengths: Vec<f64> = halves.iter().map(|&h| f64::from(h) * 0.5).collect();
+        let sticks = sticks(&lengths);
         let offers: Vec<f64> = others.into_iter().chain([longest]).collect();
-        let p = plan(&lengths, &stock(&offers, kerf)).expect("all fit");
+        let p = plan(&sticks, &stock(&offers, kerf)).expect("all fit");
         let mut rods: Vec<RodId> = Vec::new();
         for bar in &p.bars {
             let n = bar.pieces.len() as f64;
@@ -131,13 +141,46 @@ proptest! {
             rods.extend(bar.pieces.iter().map(|p| p.rod));
         }
         rods.sort();
-        prop_assert!(rods.into_iter().eq(lengths.ids()));
+        prop_assert!(rods.into_iter().eq(sticks.ids()));
         prop_assert!(p.bars.len() >= p.bound);
         let room = offers.iter().copied().fold(0.0, f64::max) + kerf;
         let plain = (lengths.iter().map(|l| l + kerf).sum::<f64>() / room - 1e-6).ceil();
         prop_assert!(p.bound as f64 >= plain);
         prop_assert_eq!(p.groups().iter().map(|g| g.bars.len()).sum::<usize>(), p.bars.len());
-        prop_assert_eq!(plan(&lengths, &stock(&offers, kerf)).expect("as before"), p);
+        prop_assert_eq!(plan(&sticks, &stock(&offers, kerf)).expect("as before"), p);
+    }
+
+    /// Each diameter is planned as if it were alone.
+    #[test]
+    fn no_bar_holds_rods_of_two_diameters(
+        pieces in proptest::collection::vec((1u32..=600, 0..3usize), 1..40),
+        kerf in 0.0..4.0f64,
+    ) {
+        let kinds = [[5.0, 5.0], [3.0, 3.0], [6.0, 4.0]];
+        let all: IdVec<RodId, Stick> = pieces
+            .iter()
+            .map(|&(h, kind)| Stick { length: f64::from(h) * 0.5, diameters: kinds[kind] })
+            .collect();
+        let stock = stock(&[300.0, 500.0], kerf);
+        let p = plan(&all, &stock).expect("all fit");
+        for piece in p.bars.iter().flat_map(|bar| bar.pieces.iter().map(move |q| (bar, q))) {
+            prop_assert_eq!(piece.0.diameters, all[piece.1.rod].diameters);
+        }
+        prop_assert_eq!(p.pieces(), all.len());
+        let (mut bars, mut bound) = (0, 0);
+        for kind in kinds {
+            let alone: IdVec<RodId, Stick> =
+                all.iter().copied().filter(|s| s.diameters == kind).collect();
+            let alone = plan(&alone, &stock).expect("all fit");
+            let buy = p.shopping();
+            let mine: Vec<Purchase> = buy.into_iter().filter(|b| b.diameters == kind).collect();
+            prop_assert_eq!(alone.shopping(), mine);
+            bars += alone.bars.len();
+            bound += alone.bound;
+        }
+        prop_assert_eq!((p.bars.len(), p.bound), (bars, bound));
+        let order: Vec<f64> = p.bars.iter().map(|bar| bar.diameters[0]).collect();
+        prop_assert!(order.is_sorted());
     }
 
     #[test]

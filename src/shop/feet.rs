@@ -12,6 +12,8 @@ pub struct Foot {
     pub rod: RodId,
     /// The end that it stands on.
     pub end: End,
+    /// The rod's diameter at that end.
+    pub diameter: f64,
     /// Where the axis meets the ground.
     pub x: f64,
     /// Where the axis meets the ground.
@@ -64,6 +66,7 @@ pub fn feet(frame: &Frame) -> Vec<Foot> {
             Foot {
                 rod: support.rod,
                 end: support.end,
+                diameter: frame.rods[support.rod].diameter_of(support.end),
                 x,
                 y,
                 elevation,

@@ -42,6 +42,7 @@ pub(crate) fn circuit(n: usize, diameter: f64) -> Frame {
         .enumerate()
         .map(|(r, &axis)| Rod {
             axis,
+            diameters: [diameter; 2],
             units: vec![UnitId::new(0)],
             border: true,
             contacts: around(r.index()),
@@ -127,6 +128,7 @@ pub(crate) fn laid_on_sample(
         layering: Default::default(),
         way: Way::default(),
         surface_low,
+        sizes: Default::default(),
     };
     let placement = Placement { edge, ..start };
     let canvas = PlaneCanvas::new(&chart, pattern, placement, shape).unwrap();

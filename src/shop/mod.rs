@@ -12,9 +12,9 @@ pub mod marks;
 #[cfg(test)]
 pub(crate) mod fixture;
 
-pub use cutlist::{Bar, BarGroup, CutError, CutPlan, Piece, Stock};
+pub use cutlist::{Bar, BarGroup, CutError, CutPlan, Piece, Purchase, Stock};
 pub use feet::{Foot, feet};
-pub use lengths::{LengthClass, LengthClasses, classes};
+pub use lengths::{LengthClass, LengthClasses, Stick, classes};
 pub use marks::{Mark, Side, marks};
 
 /// A name in letters, counted from zero: `a` … `z`, `aa`, `ab` … with `first` = `'a'`.

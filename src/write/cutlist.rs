@@ -2,14 +2,16 @@
 
 use super::figure::{figure, rounded};
 use super::json::Document;
+use super::structure::DiameterEntry;
 use super::tables::{TableError, table};
-use crate::shop::cutlist::{Bar, CutPlan, Piece};
+use crate::shop::cutlist::{Bar, CutPlan, Piece, Purchase};
 use crate::shop::lengths::LengthClasses;
 use serde::Serialize;
 
 /// The columns of `cutlist.csv`: a row a piece, in the order of sawing. A piece runs
-/// from `start_mm` to `stop_mm`, both measured from the bar's end.
-pub const COLUMNS: [&str; 9] = [
+/// from `start_mm` to `stop_mm`, both measured from the bar's end. `diameter_mm` is that of
+/// the rod at end A, `diameter_b_mm` at end B.
+pub const COLUMNS: [&str; 11] = [
     "bar",
     "stock_length_mm",
     "position",
@@ -19,6 +21,8 @@ pub const COLUMNS: [&str; 9] = [
     "start_mm",
     "stop_mm",
     "left_mm",
+    "diameter_mm",
+    "diameter_b_mm",
 ];
 
 /// Digits after the point of lengths, mm: only the noise of arithmetic goes.
@@ -34,6 +38,7 @@ struct BarEntry {
     rods: Vec<String>,
     left: f64,
     stops: Vec<f64>,
+    diameter: DiameterEntry,
 }
 
 impl From<&Bar> for BarEntry {
@@ -43,6 +48,7 @@ impl From<&Bar> for BarEntry {
             rods: bar.pieces.iter().map(|p| p.rod.to_string()).collect(),
             left: exact(bar.left),
             stops: bar.pieces.iter().map(|p| exact(p.stop)).collect(),
+            diameter: diameter(bar.diameters),
         }
     }
 }
@@ -51,6 +57,11 @@ impl From<&Bar> for BarEntry {
 struct StockEntry {
     stock_length: f64,
     count: usize,
+    diameter: DiameterEntry,
+}
+
+fn diameter(ends: [f64; 2]) -> DiameterEntry {
+    ends.map(exact).into()
 }
 
 /// The text of `cutlist.json`. `waste` is the share of the bought length that does
@@ -65,7 +76,11 @@ pub fn cutlist_json(plan: &CutPlan) -> Result<String, TableError> {
 
 fn document(plan: &CutPlan) -> Result<String, serde_json::Error> {
     let bars: Vec<BarEntry> = plan.bars.iter().map(BarEntry::from).collect();
-    let stock = |(stock_length, count)| StockEntry { stock_length: exact(stock_length), count };
+    let stock = |p: Purchase| StockEntry {
+        stock_length: exact(p.length),
+        count: p.count,
+        diameter: diameter(p.diameters),
+    };
     let buy: Vec<StockEntry> = plan.shopping().into_iter().map(stock).collect();
     let mut document = Document::new();
     document.value("kerf", &plan.kerf)?;
@@ -97,6 +112,8 @@ pub fn cutlist_csv(plan: &CutPlan, classes: &LengthClasses) -> Result<Vec<u8>, T
                 figure(piece.stop - piece.length, DIGITS),
                 figure(piece.stop, DIGITS),
                 figure(bar.left, DIGITS),
+                figure(bar.diameters[0], DIGITS),
+                figure(bar.diameters[1], DIGITS),
             ]
         };
         bar.pieces.iter().enumerate().map(row).collect::<Vec<_>>()
@@ -108,14 +125,15 @@ pub fn cutlist_csv(plan: &CutPlan, classes: &LengthClasses) -> Result<Vec<u8>, T
 mod tests {
     use super::*;
     use crate::shop::cutlist::{Stock, plan};
-    use crate::shop::lengths::classes_of;
+    use crate::shop::lengths::{Stick, classes_of};
     use serde_json::{Value, json};
 
     fn tenth() -> (CutPlan, LengthClasses) {
         // 0.1 + 0.2 and the like leave noise in the stops.
-        let lengths = vec![100.1, 50.2, 100.1, 30.3].into();
+        let stick = |length| Stick { length, diameters: [3.0; 2] };
+        let sticks = [100.1, 50.2, 100.1, 30.3].into_iter().map(stick).collect();
         let stock = Stock { lengths: vec![210.0, 120.0], kerf: 0.7 };
-        (plan(&lengths, &stock).unwrap(), classes_of(&lengths))
+        (plan(&sticks, &stock).unwrap(), classes_of(&sticks))
     }
 
     #[test]
@@ -123,6 +141,10 @@ mod tests {
         let (plan, _) = tenth();
         let v: Value = serde_json::from_str(&cutlist_json(&plan).unwrap()).unwrap();
         assert_eq!(v["kerf"], 0.7);
+        assert_eq!(
+            (&v["bars"][0]["diameter"], &v["buy"][0]["diameter"]),
+            (&json!(3.0), &json!(3.0))
+        );
         let mut rods: Vec<&Value> = Vec::new();
         for bar in v["bars"].as_array().unwrap() {
             let stops = bar["stops"].as_array().unwrap();
@@ -145,10 +167,11 @@ mod tests {
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(
             lines[0],
-            "bar,stock_length_mm,position,rod,length_mm,class,start_mm,stop_mm,left_mm"
+            "bar,stock_length_mm,position,rod,length_mm,class,start_mm,stop_mm,left_mm,diameter_mm,\
+             diameter_b_mm"
         );
         assert_eq!(lines.len(), 5);
-        assert_eq!(lines[1], "1,210,1,R001,100.1,A,0,100.1,8.4");
-        assert_eq!(lines[2], "1,210,2,R003,100.1,A,100.8,200.9,8.4");
+        assert_eq!(lines[1], "1,210,1,R001,100.1,A,0,100.1,8.4,3,3");
+        assert_eq!(lines[2], "1,210,2,R003,100.1,A,100.8,200.9,8.4,3,3");
     }
 }

@@ -1,6 +1,7 @@
 //! The model as a binary glTF 2.0 file: metres, y up.
 //!
-//! Every rod is a node of its own name with one shared cylinder, placed by
+//! Every rod is a node of its own name with one shared cylinder (rods that taper alike share
+//! a cone), placed by
 //! translation, rotation and scale: the node's origin is end A and its y axis runs
 //! along the rod. Contacts and supports are empty nodes. Figures of each stand in its
 //! `extras`, in mm and degrees.
@@ -16,8 +17,10 @@ pub(super) use cylinder::SIDES;
 pub use plain::{mesh_glb, mesh_gltf};
 
 use super::figure::rounded;
-use super::structure::{ContactEntry, ContactKindName, EndName, RodEntry, Structure, SupportEntry};
-use cylinder::{Cylinder, push_cylinder};
+use super::structure::{
+    ContactEntry, ContactKindName, DiameterEntry, EndName, RodEntry, Structure, SupportEntry,
+};
+use cylinder::{Cylinder, push_cylinders};
 use gltf::binary::{Glb, Header};
 use gltf_json::extras::{Extras, RawValue};
 use gltf_json::scene::UnitQuaternion;
@@ -56,9 +59,15 @@ const BORDER: (&str, [f32; 4]) = ("border rods", [0.25, 0.12, 0.05, 1.0]);
 pub fn glb(structure: &Structure) -> Result<Vec<u8>, GlbError> {
     let mut root = Root::default();
     root.asset.generator = Some(generator());
-    let (cylinder, buffer) = push_cylinder(&mut root);
+    let tapers = tapers(structure);
+    let (cylinders, buffer) = push_cylinders(&mut root, &tapers);
     let notes = notes(structure);
-    let rods = rod_nodes(&mut root, structure, &cylinder, &notes)?;
+    let rods = rod_nodes(
+        &mut root,
+        structure,
+        &Shapes { tapers: &tapers, cylinders: &cylinders },
+        &notes,
+    )?;
     let contacts = contact_nodes(&mut root, structure)?;
     let supports = support_nodes(&mut root, structure)?;
     let groups = [("rods", rods), ("contacts", contacts), ("supports", supports)];
@@ -129,7 +138,7 @@ struct TopFigures {
 #[derive(Serialize)]
 struct RodFigures<'a> {
     length_mm: f64,
-    diameter_mm: f64,
+    diameter_mm: DiameterEntry,
     class: &'a str,
     border: bool,
     units: &'a [String],
@@ -141,21 +150,22 @@ struct RodFigures<'a> {
 fn rod_nodes(
     root: &mut Root,
     structure: &Structure,
-    cylinder: &Cylinder,
+    shapes: &Shapes,
     notes: &HashMap<&str, Notes<'_>>,
 ) -> Result<Vec<Index<Node>>, GlbError> {
     let none = Notes::default();
     // A mesh without nodes would be left over, so each is made when first needed.
-    let mut meshes: [Option<Index<Mesh>>; 2] = [None; 2];
+    let mut meshes: Vec<[Option<Index<Mesh>>; 2]> = vec![[None; 2]; shapes.cylinders.len()];
     let mut nodes = Vec::with_capacity(structure.rods.len());
     for rod in &structure.rods {
         let look = if rod.border { BORDER } else { INNER };
-        let mesh =
-            *meshes[usize::from(rod.border)].get_or_insert_with(|| push_mesh(root, cylinder, look));
+        let shape = shapes.of(structure.diameters(rod));
+        let mesh = *meshes[shape][usize::from(rod.border)]
+            .get_or_insert_with(|| push_mesh(root, &shapes.cylinders[shape], look));
         let note = notes.get(rod.id.as_str()).unwrap_or(&none);
         let figures = RodFigures {
             length_mm: rounded(rod.length, DIGITS),
-            diameter_mm: structure.rod_diameter,
+            diameter_mm: structure.diameters(rod).into(),
             class: &rod.class,
             border: rod.border,
             units: &rod.units,
@@ -168,11 +178,41 @@ fn rod_nodes(
     Ok(nodes)
 }
 
-/// The node of a rod, without its mesh: the unit cylinder runs from the origin to
-/// (0, 1, 0), with radius 1.
+/// The shapes that rods share, each with its taper: the radius at end B as part of that at
+/// end A.
+struct Shapes<'a> {
+    tapers: &'a [f64],
+    cylinders: &'a [Cylinder],
+}
+
+impl Shapes<'_> {
+    /// The place of the shape of a rod of these diameters.
+    fn of(&self, diameters: [f64; 2]) -> usize {
+        self.tapers.iter().position(|&t| t == taper(diameters)).unwrap_or_default()
+    }
+}
+
+fn taper([a, b]: [f64; 2]) -> f64 {
+    b / a
+}
+
+/// The different tapers of rods, in the order of the first ones.
+fn tapers(structure: &Structure) -> Vec<f64> {
+    let mut tapers: Vec<f64> = Vec::new();
+    for rod in &structure.rods {
+        let taper = taper(structure.diameters(rod));
+        if !tapers.contains(&taper) {
+            tapers.push(taper);
+        }
+    }
+    tapers
+}
+
+/// The node of a rod, without its mesh: the shared one runs from the origin to (0, 1, 0),
+/// with radius 1 at the origin.
 fn placed(rod: &RodEntry, structure: &Structure) -> Node {
     let [a, b] = [metres(rod.a), metres(rod.b)];
-    let radius = (structure.rod_diameter / 2000.0) as f32;
+    let radius = (structure.diameters(rod)[0] / 2000.0) as f32;
     Node {
         name: Some(rod.id.clone()),
         translation: Some(single(a)),

@@ -1,4 +1,4 @@
-//! Rods as meshes: closed prisms round their axes, mm, z up.
+//! Rods as meshes: closed prisms round their axes, or parts of cones, mm, z up.
 
 use super::glb::SIDES;
 use super::obj::write_obj_objects;
@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 /// The rods as the text of an OBJ file, an object each, by their names.
 pub fn rods_obj(structure: &Structure) -> String {
     let rods = structure.rods.iter();
-    write_obj_objects(rods.map(|r| (r.id.as_str(), rod_mesh(r, structure.rod_diameter))))
+    write_obj_objects(rods.map(|r| (r.id.as_str(), rod_mesh(r, structure.diameters(r)))))
 }
 
 /// The rods as the bytes of a binary STL file.
@@ -28,7 +28,7 @@ fn all_rods(structure: &Structure) -> Mesh {
     let mut all = Mesh::default();
     for rod in &structure.rods {
         let first = all.points.len();
-        let mesh = rod_mesh(rod, structure.rod_diameter);
+        let mesh = rod_mesh(rod, structure.diameters(rod));
         mesh.points.iter().for_each(|&p| _ = all.points.push(p));
         for t in &mesh.triangles {
             all.triangles.push(t.map(|v| VertexId::new(first + v.index())));
@@ -39,16 +39,17 @@ fn all_rods(structure: &Structure) -> Mesh {
 
 /// A closed prism with its edges on the rod's round side: the corners of end A, then
 /// those of end B.
-fn rod_mesh(rod: &RodEntry, diameter: f64) -> Mesh {
+fn rod_mesh(rod: &RodEntry, diameters: [f64; 2]) -> Mesh {
     let [a, b] = [rod.a, rod.b].map(Point3::from);
     let along = (b - a).normalize();
     // The axis that lies farthest from the rod's gives a direction across it.
     let least = along.iamin();
-    let across = Vector3::ith(least, 1.0).cross(&along).normalize() * (diameter / 2.0);
-    let beside = along.cross(&across);
+    let across = Vector3::ith(least, 1.0).cross(&along).normalize();
+    let sideways = along.cross(&across);
     let sides = usize::from(SIDES);
     let mut mesh = Mesh::default();
-    for end in [a, b] {
+    for (end, diameter) in [a, b].into_iter().zip(diameters) {
+        let [across, beside] = [across, sideways].map(|v| v * (diameter / 2.0));
         for i in 0..sides {
             let (sin, cos) = (TAU * i as f64 / sides as f64).sin_cos();
             mesh.points.push(end + across * cos + beside * sin);
@@ -86,7 +87,7 @@ mod tests {
         for b in [[3.0, 4.0, 12.0], [0.0, 0.0, 7.0], [-7.0, 0.0, 0.0], [0.0, 1e-3, -9.0]] {
             rod.a = [1.0, 2.0, 3.0];
             rod.b = [1.0 + b[0], 2.0 + b[1], 3.0 + b[2]];
-            let mesh = rod_mesh(&rod, 4.0);
+            let mesh = rod_mesh(&rod, [6.0, 2.0]);
             let shape = Shape::new(&mesh, &Topology::new(&mesh).expect("sound"));
             let [piece] = &shape.pieces[..] else { panic!("one piece") };
             assert_eq!((piece.borders.len(), piece.genus), (0, 0));
@@ -98,7 +99,9 @@ mod tests {
                 })
                 .sum();
             let sides = f64::from(SIDES);
-            let area = sides / 2.0 * (TAU / sides).sin() * 4.0;
+            let area = sides / 2.0 * (TAU / sides).sin();
+            // A cone's: its mean section with radii r and s is that of (r² + r s + s²) / 3.
+            let area = area * (9.0 + 3.0 + 1.0) / 3.0;
             let volume = area * Vector3::from(b).norm();
             assert!((six_volumes / 6.0 / volume - 1.0).abs() < 1e-9, "{b:?}");
         }

@@ -26,7 +26,7 @@ pub const VERSION: u64 = 1;
 /// A structure as the file holds it.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 pub struct Structure {
-    /// Diameter of every rod, mm.
+    /// Nominal diameter of the rods, mm.
     pub rod_diameter: f64,
     /// Height of the ground, mm.
     pub ground: f64,
@@ -60,6 +60,35 @@ pub struct RodEntry {
     pub units: Vec<String>,
     /// Whether it belongs to one unit only.
     pub border: bool,
+    /// Its diameter; the nominal one where a file has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diameter: Option<DiameterEntry>,
+}
+
+/// The diameter of a rod, mm.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum DiameterEntry {
+    /// All along.
+    Even(f64),
+    /// At end A and at end B; it tapers evenly between them.
+    Tapered([f64; 2]),
+}
+
+impl DiameterEntry {
+    /// At end A and at end B.
+    pub fn ends(self) -> [f64; 2] {
+        match self {
+            Self::Even(diameter) => [diameter; 2],
+            Self::Tapered(ends) => ends,
+        }
+    }
+}
+
+impl From<[f64; 2]> for DiameterEntry {
+    fn from([a, b]: [f64; 2]) -> Self {
+        if a == b { Self::Even(a) } else { Self::Tapered([a, b]) }
+    }
 }
 
 /// A place where two rods touch.
@@ -245,6 +274,11 @@ impl Structure {
         report.list("dropped", &self.report.dropped)?;
         document.nested("report", report)?;
         Ok(document.finish())
+    }
+
+    /// The diameters of a rod at end A and at end B, mm.
+    pub fn diameters(&self, rod: &RodEntry) -> [f64; 2] {
+        rod.diameter.map_or([self.rod_diameter; 2], DiameterEntry::ends)
     }
 
     /// The rod of that name.

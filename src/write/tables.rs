@@ -15,8 +15,9 @@ use csv::Writer;
 use thiserror::Error;
 
 /// The columns of `rods.csv`. `contacts` lists those of the rod from end A on;
-/// `support` is the letter of the end that stands on the ground, if one does.
-pub const RODS: [&str; 12] = [
+/// `support` is the letter of the end that stands on the ground, if one does. `diameter_mm` is
+/// that of end A, `diameter_b_mm` that of end B.
+pub const RODS: [&str; 13] = [
     "id",
     "cut_length_mm",
     "diameter_mm",
@@ -29,6 +30,7 @@ pub const RODS: [&str; 12] = [
     "bz",
     "contacts",
     "support",
+    "diameter_b_mm",
 ];
 
 /// The columns of `contacts.csv`. A clock angle tells where the partner lies round
@@ -94,12 +96,13 @@ pub fn rods(frame: &Frame, classes: &LengthClasses) -> Result<Vec<u8>, TableErro
         let mut cells = vec![
             r.to_string(),
             figure(rod.axis.length(), CUT_DIGITS),
-            figure(frame.diameter, CUT_DIGITS),
+            figure(rod.diameters[0], CUT_DIGITS),
             classes.of(r).name.clone(),
         ];
         cells.extend([a.x, a.y, a.z, b.x, b.y, b.z].map(length));
         cells.push(contacts.join(" "));
         cells.push(standing_ends(frame, r));
+        cells.push(figure(rod.diameters[1], CUT_DIGITS));
         cells
     };
     table("rods.csv", &RODS, frame.rods.enumerate().map(row))
@@ -208,7 +211,7 @@ mod tests {
         let frame = circuit(3, 3.0);
         assert_eq!(
             first_line(&rods(&frame, &classes(&frame)).unwrap()),
-            "id,cut_length_mm,diameter_mm,class,ax,ay,az,bx,by,bz,contacts,support"
+            "id,cut_length_mm,diameter_mm,class,ax,ay,az,bx,by,bz,contacts,support,diameter_b_mm"
         );
         assert_eq!(
             first_line(&contacts(&frame).unwrap()),
@@ -224,6 +227,7 @@ mod tests {
     fn a_rod_row_tells_where_it_lies() {
         let mut frame = circuit(4, 3.0);
         frame.supports.remove(1);
+        frame.rods[RodId::new(2)].diameters = [3.0, 2.25];
         let rows = rows(&rods(&frame, &classes(&frame)).unwrap());
         assert_eq!(rows.len(), 4);
         for (row, (r, rod)) in rows.iter().zip(frame.rods.enumerate()) {
@@ -231,7 +235,12 @@ mod tests {
             assert_eq!(row[0], r.to_string());
             assert!((number(1) - rod.axis.length()).abs() < 1e-6);
             assert_eq!((number(1) * 2.0).fract(), 0.0, "cut to half mm: {}", row[1]);
-            assert_eq!((row[2].as_str(), row[3].as_str()), ("3", "A"));
+            let taper = r.index() == 2;
+            assert_eq!(
+                (row[2].as_str(), row[12].as_str()),
+                ("3", if taper { "2.25" } else { "3" })
+            );
+            assert_eq!(row[3], if taper { "A" } else { "B" });
             assert!((number(4) - rod.axis.a.x).abs() <= 0.000_5 + 1e-9);
             assert!((number(9) - rod.axis.b.z).abs() <= 0.000_5 + 1e-9);
             assert_eq!(row[10].split(' ').count(), 2);

@@ -3,11 +3,12 @@
 use super::Args;
 use crate::cli::Failure;
 use crate::cli::page::Page;
+use crate::cli::summary::{diameter, rods};
 use crate::cli::terminal::Terminal;
 use crate::frame::{ContactKind, End, Frame};
 use crate::ids::{ContactId, Id, IdVec, RodId, UnitId};
 use crate::shop::feet::feet;
-use crate::shop::lengths::classes;
+use crate::shop::lengths::{are_mixed, classes};
 use crate::shop::marks::{Side, marks};
 use crate::surface::Point3;
 use crate::write::structure::Structure;
@@ -56,7 +57,7 @@ fn list(ids: impl IntoIterator<Item = impl Display>) -> String {
 
 fn overview(page: &mut Page, frame: &Frame) {
     page.head("Structure");
-    page.row("rods", format!("{} of {} mm diameter", frame.rods.len(), frame.diameter));
+    page.row("rods", rods(frame));
     page.row("contacts", frame.contacts.len());
     page.row("units", frame.units.len());
     page.row("on the ground", list(frame.supports.iter().map(|s| s.rod)));
@@ -65,10 +66,13 @@ fn overview(page: &mut Page, frame: &Frame) {
     page.row("size", format!("{:.1} × {:.1} × {:.1} mm", size.x, size.y, size.z));
     page.head("Lengths");
     for class in &classes(frame) {
-        page.row(
-            &class.name,
-            format!("{:.1} mm  {} ×  {}", class.length, class.rods.len(), list(&class.rods)),
-        );
+        let thick = if are_mixed(frame) {
+            format!("Ø {}  ", diameter(class.diameters))
+        } else {
+            String::new()
+        };
+        let (count, rods) = (class.rods.len(), list(&class.rods));
+        page.row(&class.name, format!("{:.1} mm  {thick}{count} ×  {rods}", class.length));
     }
 }
 
@@ -77,6 +81,9 @@ fn rod(page: &mut Page, frame: &Frame, id: RodId) {
     let classes = classes(frame);
     page.head(&format!("Rod {id}"));
     page.row("cut length", format!("{:.1} mm, class {}", rod.axis.length(), classes.of(id).name));
+    if are_mixed(frame) {
+        page.row("diameter", diameter(rod.diameters));
+    }
     page.row("end A", place(rod.axis.a));
     page.row("end B", place(rod.axis.b));
     page.row("units", list(&rod.units));

@@ -1,6 +1,6 @@
 //! The cost of a choice of who goes over, and contacts turned over while it falls.
 //!
-//! With h the rises, w the diameter and K = J Jᵀ, the least move of rod ends that
+//! With h the rises, w the wanted gaps (the diameter, where all rods have one) and K = J Jᵀ, the least move of rod ends that
 //! meets the linearised contacts of a choice s has the squared size
 //!
 //! ```text
@@ -17,6 +17,9 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 pub struct Choice {
     /// +1 where the ending rod goes over, −1 where it goes under.
     signs: Vec<f64>,
+    /// w of every row.
+    wanted: Vec<f64>,
+    /// What gains are measured by.
     diameter: f64,
     /// K⁻¹.
     inverse: DMatrix<f64>,
@@ -47,6 +50,7 @@ impl Choice {
         mut k: DMatrix<f64>,
         signs: Vec<f64>,
         residual: Vec<f64>,
+        wanted: Vec<f64>,
         diameter: f64,
     ) -> Option<Self> {
         let small = DIAGONAL * k.diagonal().amax();
@@ -54,7 +58,7 @@ impl Choice {
         let inverse = Cholesky::new(k)?.inverse();
         let residual = DVector::from(residual);
         let pull = &inverse * &residual;
-        Some(Self { signs, diameter, inverse, residual, pull })
+        Some(Self { signs, wanted, diameter, inverse, residual, pull })
     }
 
     /// The cost, mm².
@@ -70,13 +74,13 @@ impl Choice {
 
     /// By how much turning a row over would change the cost, mm².
     pub fn change(&self, i: usize) -> f64 {
-        let w = self.diameter;
+        let w = self.wanted[i];
         4.0 * w * (w * self.inverse[(i, i)] - self.signs[i] * self.pull[i])
     }
 
     /// Turns a row over.
     pub fn flip(&mut self, i: usize) {
-        let step = -2.0 * self.signs[i] * self.diameter;
+        let step = -2.0 * self.signs[i] * self.wanted[i];
         self.residual[i] += step;
         self.pull.axpy(step, &self.inverse.column(i), 1.0);
         self.signs[i] = -self.signs[i];
@@ -122,7 +126,7 @@ mod tests {
 
     fn choice(k: &DMatrix<f64>, signs: &[f64], rises: &[f64], w: f64) -> Choice {
         let residual = signs.iter().zip(rises).map(|(s, h)| s * w - h).collect();
-        Choice::new(k.clone(), signs.to_vec(), residual, w).unwrap()
+        Choice::new(k.clone(), signs.to_vec(), residual, vec![w; signs.len()], w).unwrap()
     }
 
     proptest! {

@@ -117,6 +117,7 @@ fn a_flat_sheet_closes_with_little_move_and_nothing_left_out() {
         layering: Layering::Auto,
         way: Way::default(),
         surface_low: -9.0,
+        sizes: Default::default(),
     };
     let formed = form(&canvas, &settings).unwrap();
     let mean = formed.moves.iter().sum::<f64>() / formed.moves.len() as f64;

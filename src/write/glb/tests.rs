@@ -26,6 +26,7 @@ fn cylinders_lie_on_the_axes_of_their_rods() {
     s.rods[0].b = [s.rods[0].a[0], s.rods[0].a[1], 500.0];
     s.rods[1].b = [s.rods[1].a[0], s.rods[1].a[1], -500.0];
     s.rods[2].b = [s.rods[2].a[0] + 1e-4, s.rods[2].a[1], -5000.0];
+    s.rods[3].diameter = Some([5.0, 5.0].into());
     let gltf = Gltf::from_slice(&glb(&s).unwrap()).unwrap();
     for rod in &s.rods {
         let n = node(&gltf, &rod.id);
@@ -34,7 +35,7 @@ fn cylinders_lie_on_the_axes_of_their_rods() {
             let got = back(matrix.transform_point(&Point3::new(0.0, y, 0.0)));
             assert!((got - Point3::from(end)).norm() < 1e-3, "{}: {got} {end:?}", rod.id);
             let rim = back(matrix.transform_point(&Point3::new(1.0, y, 0.0)));
-            assert!(((rim - got).norm() - s.rod_diameter / 2.0).abs() < 1e-3);
+            assert!(((rim - got).norm() - s.diameters(rod)[0] / 2.0).abs() < 1e-3);
         }
         assert!(matrix.determinant() > 0.0);
     }
@@ -55,6 +56,36 @@ fn all_rods_share_one_cylinder() {
         mesh.primitives().next().unwrap().material().name().unwrap().to_owned()
     };
     assert_eq!((material("R001"), material("R002")), ("inner rods".into(), "border rods".into()));
+}
+
+#[test]
+fn rods_that_taper_alike_share_a_cone() {
+    let mut s = structure();
+    s.rods[1].diameter = Some([6.0, 4.0].into());
+    s.rods[2].diameter = Some([3.0, 2.0].into());
+    s.rods[3].diameter = Some([4.0, 6.0].into());
+    let bytes = glb(&s).unwrap();
+    let gltf = Gltf::from_slice(&bytes).unwrap();
+    assert_eq!((gltf.accessors().count(), gltf.meshes().count()), (9, 3));
+    let buffers = [gltf.blob.clone().unwrap()];
+    for rod in &s.rods {
+        let n = node(&gltf, &rod.id);
+        let matrix: Matrix4<f32> = n.transform().matrix().into();
+        let primitive = n.mesh().unwrap().primitives().next().unwrap();
+        let reader = primitive.reader(|b| buffers.get(b.index()).map(Vec::as_slice));
+        for p in reader.read_positions().unwrap() {
+            let place = back(matrix.transform_point(&p.into()));
+            let [a, b] = [rod.a, rod.b].map(Point3::from);
+            let along = (place - a).dot(&(b - a).normalize());
+            let off = (place - a - (b - a).normalize() * along).norm();
+            let [d, e] = s.diameters(rod);
+            let radius = d / 2.0 + (e - d) / 2.0 * along / rod.length;
+            assert!((off - radius).abs() < 1e-3, "{}: {off} {radius}", rod.id);
+        }
+    }
+    let extras = node(&gltf, "R002").extras().clone().unwrap();
+    let figures: serde_json::Value = serde_json::from_str(extras.get()).unwrap();
+    assert_eq!(figures["diameter_mm"], serde_json::json!([6.0, 4.0]));
 }
 
 #[test]

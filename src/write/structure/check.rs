@@ -14,6 +14,14 @@ pub enum StructureFault {
     /// The diameter is no diameter.
     #[error("a rod diameter of {0} mm is not a length above 0")]
     Diameter(f64),
+    /// The diameter of a rod is no diameter.
+    #[error("{rod} has a diameter of {diameter} mm, which is not a length above 0")]
+    RodDiameter {
+        /// The rod.
+        rod: String,
+        /// What it is given, mm.
+        diameter: f64,
+    },
     /// Two elements share a name.
     #[error("{0} stands there twice")]
     Duplicate(String),
@@ -90,6 +98,9 @@ impl Structure {
 
     fn check_rods(&self, names: &Names) -> Result<(), StructureFault> {
         for rod in &self.rods {
+            if let Some(&bad) = self.diameters(rod).iter().find(|d| !(**d > 0.0 && d.is_finite())) {
+                return Err(StructureFault::RodDiameter { rod: rod.id.clone(), diameter: bad });
+            }
             finite(&rod.id, &rod.a)?;
             finite(&rod.id, &rod.b)?;
             finite(&rod.id, &[rod.length])?;

@@ -61,7 +61,7 @@ impl Structure {
                 .rods
                 .iter()
                 .zip(along.iter())
-                .map(|(r, along)| places.rod(r, along))
+                .map(|(r, along)| places.rod(r, self.diameters(r), along))
                 .collect(),
             units: self.units.iter().map(|u| places.unit(u, &contacts)).collect(),
             contacts,
@@ -80,6 +80,7 @@ fn rod_entry(r: RodId, rod: &Rod, classes: &LengthClasses) -> RodEntry {
         class: classes.of(r).name.clone(),
         units: strings(&rod.units),
         border: rod.border,
+        diameter: Some(rod.diameters.into()),
     }
 }
 
@@ -198,9 +199,10 @@ impl Places<'_> {
         }
     }
 
-    fn rod(&self, r: &RodEntry, along: &[(f64, ContactId)]) -> Rod {
+    fn rod(&self, r: &RodEntry, diameters: [f64; 2], along: &[(f64, ContactId)]) -> Rod {
         Rod {
             axis: Axis { a: r.a.into(), b: r.b.into() },
+            diameters,
             units: r.units.iter().map(|u| self.units[u.as_str()]).collect(),
             border: r.border,
             contacts: along.iter().map(|&(_, c)| c).collect(),

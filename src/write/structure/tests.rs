@@ -27,7 +27,8 @@ fn keys_are_those_of_version_1() {
     assert_eq!((&v["format"], &v["version"]), (&json!("rodwright-structure"), &json!(1)));
     let top = ["contacts", "format", "ground", "report", "rod_diameter", "rods", "supports"];
     assert_eq!(keys(&v), [&top[..], &["units", "version"]].concat());
-    assert_eq!(keys(&v["rods"][0]), ["a", "b", "border", "class", "id", "length", "units"]);
+    let rod = ["a", "b", "border", "class", "diameter", "id", "length", "units"];
+    assert_eq!(keys(&v["rods"][0]), rod);
     let contact = ["angle", "at_over", "at_under", "gap", "id", "kind", "normal", "over", "under"];
     assert_eq!(keys(&v["contacts"][0]), [&contact[..], &["unit"]].concat());
     let unit = ["center", "chirality", "contacts", "id", "rods", "sides"];
@@ -94,6 +95,25 @@ fn a_frame_comes_back_from_its_file() {
 }
 
 #[test]
+fn diameters_come_back_and_rods_without_one_have_the_nominal() {
+    let mut frame = circuit(4, 3.0);
+    let [first, second, third] = [0, 1, 2].map(crate::ids::Id::new);
+    frame.rods[first].diameters = [5.0; 2];
+    frame.rods[second].diameters = [6.0, 4.0];
+    let mut v: Value = serde_json::from_str(&structure(&frame).to_json().unwrap()).unwrap();
+    assert_eq!((&v["rods"][0]["diameter"], &v["rods"][2]["diameter"]), (&json!(5.0), &json!(3.0)));
+    assert_eq!(v["rods"][1]["diameter"], json!([6.0, 4.0]));
+    let after = parse(&v.to_string()).unwrap().to_frame().unwrap();
+    let ends = |r| after.rods[r].diameters;
+    assert_eq!([first, second, third].map(ends), [[5.0; 2], [6.0, 4.0], [3.0; 2]]);
+    for rod in v["rods"].as_array_mut().unwrap() {
+        rod.as_object_mut().unwrap().remove("diameter");
+    }
+    let old = parse(&v.to_string()).unwrap().to_frame().unwrap();
+    assert!(old.rods.iter().all(|rod| rod.diameters == [3.0; 2]));
+}
+
+#[test]
 fn syntax_errors_name_the_line() {
     let text = structure(&circuit(3, 3.0)).to_json().unwrap();
     let cut = &text[..text.len() / 2];
@@ -148,6 +168,10 @@ fn structures_that_do_not_hang_together_are_refused() {
         fault.to_string()
     };
     assert_eq!(fault(&|s| s.rod_diameter = 0.0), "a rod diameter of 0 mm is not a length above 0");
+    assert_eq!(
+        fault(&|s| s.rods[1].diameter = Some([4.0, -1.0].into())),
+        "R002 has a diameter of -1 mm, which is not a length above 0"
+    );
     assert_eq!(fault(&|s| s.rods[1].id = "R001".into()), "R001 stands there twice");
     assert_eq!(
         fault(&|s| s.contacts[0].over = "R009".into()),
