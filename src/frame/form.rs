@@ -129,9 +129,9 @@ const AT_ONCE: usize = 40;
 /// there is no room for the two rods side by side.
 const ENGAGEMENT: f64 = 1.0;
 
-/// Rounds of closing and cutting rods that taper before giving up. A taper of a hundredth takes
-/// seven.
-const MOST_ROUNDS: usize = 20;
+/// Rounds of closing and cutting rods that taper before giving up. Tapers of some hundredths
+/// take seven to ten.
+const MOST_ROUNDS: usize = 40;
 
 /// Longest piece added to a rod so that it stands on the ground, in tile edges.
 const REACH: f64 = 1.5;

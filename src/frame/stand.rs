@@ -27,6 +27,8 @@ pub struct Standing<'a> {
     pub reach: f64,
     /// Diameters of the rods at end A and at end B, mm.
     pub sizes: &'a IdVec<RodId, [f64; 2]>,
+    /// The only rods that may be; none for all.
+    pub among: Option<&'a BTreeSet<RodId>>,
 }
 
 /// Lengthens border rods at end A down to the ground, one after the other, where
@@ -38,7 +40,9 @@ pub fn stand(
     lengths: &mut Steps,
 ) -> Vec<Support> {
     let mut supports = Vec::new();
-    for r in weave.rods.ids().filter(|&r| weave.rods[r].ends[0] == RodEnd::Free) {
+    let may = |r: &RodId| how.among.is_none_or(|among| among.contains(r));
+    let free = weave.rods.ids().filter(|&r| weave.rods[r].ends[0] == RodEnd::Free);
+    for r in free.filter(may) {
         let Some(longer) = let_down(&axes[r], how, |least| lengths.length(r, least)) else {
             continue;
         };
@@ -79,7 +83,7 @@ mod tests {
     use crate::frame::cut::rounded_up;
 
     fn down(axis: &Axis) -> Option<Axis> {
-        let how = Standing { ground: -1.0, reach: 20.0, sizes: &IdVec::new() };
+        let how = Standing { ground: -1.0, reach: 20.0, sizes: &IdVec::new(), among: None };
         let_down(axis, &how, |least| rounded_up(least, 0.5))
     }
 

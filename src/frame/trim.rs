@@ -9,6 +9,7 @@ use super::sizes::Sizes;
 use super::stand::{Standing, ground_level, stand};
 use super::weave::Weave;
 use crate::ids::{ContactId, IdVec, RodId};
+use std::collections::BTreeSet;
 
 /// How rods are cut. Lengths in mm.
 #[derive(Clone, Copy, Debug)]
@@ -45,12 +46,16 @@ pub struct Trimmed {
 pub struct Lengths {
     cut: Steps,
     standing: Steps,
+    /// The rods that stood in the last try. Others are not let down any more: one that just
+    /// reaches the ground, and no longer does when it is as thick as that makes it, would
+    /// otherwise go up and down.
+    stood: Option<BTreeSet<RodId>>,
 }
 
 impl Lengths {
     /// Multiples of `round` mm; 0 for any length.
     pub fn new(round: f64) -> Self {
-        Self { cut: Steps::new(round), standing: Steps::new(round) }
+        Self { cut: Steps::new(round), standing: Steps::new(round), stood: None }
     }
 }
 
@@ -76,8 +81,10 @@ pub fn trim(
         .collect();
     let ground = ground_level(how.surface_low, &cut);
     let mut axes = cut.clone();
-    let standing = Standing { ground, reach: how.reach, sizes: &how.sizes.ends };
+    let among = lengths.stood.as_ref();
+    let standing = Standing { ground, reach: how.reach, sizes: &how.sizes.ends, among };
     let supports = stand(weave, &mut axes, &standing, &mut lengths.standing);
+    lengths.stood = Some(supports.iter().map(|support| support.rod).collect());
     let diameters = how.sizes.at_contacts(weave, &axes, joints)?;
     Ok(Trimmed { along, cut, axes, diameters, ground, supports })
 }

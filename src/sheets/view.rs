@@ -21,7 +21,7 @@ const FREE_PIECE: f64 = 15.0;
 const MANY_RODS: usize = 1500;
 /// Thinnest line of a rod, mm.
 const THINNEST: f64 = 0.3;
-/// Rods thicker than this on paper are drawn with an outline, mm.
+/// Where all rods are thicker than this on paper they are drawn with an outline, mm.
 const OUTLINED: f64 = 1.2;
 /// Width of that outline, mm.
 const OUTLINE: f64 = 0.25;
@@ -82,6 +82,8 @@ impl View {
         let (from, to) = (extent.center(), room.center());
         let place = |p: Point| [to[0] + (p[0] - from[0]) / n, to[1] + (p[1] - from[1]) / n];
 
+        let ends = frame.rods.iter().flat_map(|rod| rod.diameters);
+        let outlined = ends.fold(f64::INFINITY, f64::min) / n > OUTLINED;
         let mut pieces: Vec<Piece> =
             frame.rods.ids().flat_map(|rod| self.pieces(frame, rod)).collect();
         // Far ones first; ties by rod and place, as they come.
@@ -97,7 +99,8 @@ impl View {
             let level = (FARTHEST * (1.0 - near)).round() as u8;
             let line = piece.ends.map(|p| place(self.project(&p)));
             let width = (piece.diameter / n).max(THINNEST);
-            rod_piece(out, line, piece.open, width, Color::grey(level));
+            let open = outlined.then_some(piece.open);
+            rod_piece(out, line, open, width, Color::grey(level));
         }
         n
     }
@@ -161,15 +164,22 @@ struct Piece {
     diameter: f64,
 }
 
-fn rod_piece(out: &mut impl Draw, [a, b]: [Point; 2], open: [bool; 2], width: f64, color: Color) {
+/// A piece of a rod; with an outline where it is told which of its ends are the rod's.
+fn rod_piece(
+    out: &mut impl Draw,
+    [a, b]: [Point; 2],
+    outlined: Option<[bool; 2]>,
+    width: f64,
+    color: Color,
+) {
     let edge = (width * 0.4).clamp(0.25, 0.8);
     out.line(a, b, Stroke::new(width + 2.0 * edge).color(Color::WHITE));
     let line = Stroke::new(width).color(color);
-    if width <= OUTLINED {
+    let Some(open) = outlined else {
         // Round ends stick out a little and close the joints between pieces.
         out.line(a, b, line.cap(Cap::Round));
         return;
-    }
+    };
     // A dark line and a light one within it: the rest is the outline. The light one
     // is shorter at the rod's ends, and laps over the joints elsewhere.
     let [c, d] = stretched([a, b], open.map(|o| if o { 0.0 } else { LAP }));

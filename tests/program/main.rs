@@ -9,4 +9,5 @@ mod patterns;
 mod refusals;
 mod run;
 mod samples;
+mod sizes;
 mod tiles;
