@@ -141,9 +141,10 @@ fn limits(axes: &IdVec<RodId, Axis>, joints: &IdVec<ContactId, Joint>, w: f64) -
     along.iter_mut().for_each(|seats| seats.sort_by(|p, q| p.0.total_cmp(&q.0)));
     Limits {
         along: along.iter().map(|seats| seats.iter().map(|s| s.1).collect()).collect(),
-        room: w,
+        room: along.iter().map(|seats| vec![w; seats.len()]).collect(),
         beyond: vec![[2.0 * w; 2]; axes.len()].into(),
         thickness: vec![w; axes.len()].into(),
+        diameter: w,
     }
 }
 

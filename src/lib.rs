@@ -19,7 +19,7 @@
 //! let edge = fit(&chart, pattern, &start, shape, rod)?.edge;
 //! let settings = FormSettings {
 //!     diameter: rod, sizes: Default::default(), overhang: 6.0, round: 0.5,
-//!     layering: Layering::Auto, surface_low: 0.0,
+//!     layering: Layering::Auto, way: Way::default(), surface_low: 0.0,
 //! };
 //! let canvas = PlaneCanvas::new(&chart, pattern, Placement { edge, ..start }, shape)?;
 //! let frame = form(&canvas, &settings)?.frame;

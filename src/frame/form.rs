@@ -1,59 +1,19 @@
 //! From a placed pattern to a finished frame; what does not work is left out, one
 //! unit at a time, and the rest is solved again (paper, section 4.2 and Fig. 21).
 
-use super::assemble::{Ground, assemble};
-use super::axis::Axis;
+use super::Dropped;
 use super::canvas::{Canvas, Sizing};
-use super::clash::clashes;
-use super::close::{CloseError, Closing, close};
 use super::crop::{crop, held};
-use super::cut::disorder;
 use super::fault::{Fault, cover};
-use super::gaps::Joint;
-use super::layer::{Layering, layer};
-use super::lift::{Lifted, Parallel, lift};
-use super::sizes::{SizeTable, Sizes, gap_between};
-use super::trim::{Lengths, Trimmed, Trimming, trim};
+use super::finish::{ENGAGEMENT, finish};
+pub use super::formed::{FormSettings, Formed};
+use super::layer::Layering;
+use super::lift::{Parallel, lift};
+use super::sizes::{Sizes, gap_between};
 use super::weave::{Weave, WovenContact, weave};
-use super::{ContactKind, Dropped, Frame};
-use crate::ids::{ContactId, Id, IdVec, RodId, TileId, UnitId};
+use crate::ids::{ContactId, Id, RodId, TileId};
 use crate::linalg::LinalgError;
-use std::collections::BTreeSet;
 use thiserror::Error;
-
-/// What a frame is made from, besides its canvas. Lengths in mm.
-#[derive(Clone, Debug)]
-pub struct FormSettings {
-    /// The nominal diameter of the rods.
-    pub diameter: f64,
-    /// Rods of other diameters.
-    pub sizes: SizeTable,
-    /// Rod left beyond its last contact.
-    pub overhang: f64,
-    /// Rod lengths are multiples of this; 0 for any length.
-    pub round: f64,
-    /// Who goes over.
-    pub layering: Layering,
-    /// The lowest height of the surface.
-    pub surface_low: f64,
-}
-
-/// A finished frame and how it came about.
-#[derive(Clone, Debug)]
-pub struct Formed {
-    /// The frame.
-    pub frame: Frame,
-    /// The tile of each unit.
-    pub tiles: IdVec<UnitId, TileId>,
-    /// What the last closing took.
-    pub closing: Closing,
-    /// How far each end of each rod moved in it, mm.
-    pub moves: Vec<f64>,
-    /// Whether the ending rod of each contact goes over the passing one; true where ends meet.
-    pub ending_over: IdVec<ContactId, bool>,
-    /// Rise of every crossing before closing, mm.
-    pub rises: IdVec<ContactId, Option<f64>>,
-}
 
 /// Why there is no frame.
 #[derive(Error, Clone, PartialEq, Debug)]
@@ -124,17 +84,6 @@ const DROPPED_PART: f64 = 0.2;
 /// Units are left out one at a time, since each loss relieves its neighbours; of very
 /// many, one more at a time for each so many.
 const AT_ONCE: usize = 40;
-
-/// Least distance between two contacts along a rod, in diameters. Nearer, and
-/// there is no room for the two rods side by side.
-const ENGAGEMENT: f64 = 1.0;
-
-/// Rounds of closing and cutting rods that taper before giving up. Tapers of some hundredths
-/// take seven to ten.
-const MOST_ROUNDS: usize = 40;
-
-/// Longest piece added to a rod so that it stands on the ground, in tile edges.
-const REACH: f64 = 1.5;
 
 /// Builds a frame on a canvas.
 ///
@@ -285,7 +234,8 @@ fn attempt(
         all: cover(&faults).into_iter().map(tile_of).collect(),
         at_once: None,
     };
-    Ok(close_and_finish(&weave, canvas.edge(), settings, sizes)?.map_err(failing))
+    let finished = finish(&weave, canvas.edge(), settings, sizes);
+    Ok(finished.map_err(|e| unsolved(&weave, e))?.map_err(failing))
 }
 
 /// How thick the rods of a weave are.
@@ -296,172 +246,6 @@ fn sizes(weave: &Weave, settings: &FormSettings) -> Result<Sizes, FormError> {
         rods,
         last: RodId::new(rods - 1),
     })
-}
-
-/// The frame of a weave, or what is wrong with which of its units.
-fn close_and_finish(
-    weave: &Weave,
-    edge: f64,
-    settings: &FormSettings,
-    sizes: Sizes,
-) -> Result<Result<Formed, Vec<Fault>>, FormError> {
-    let lifted = match lift(weave) {
-        Ok(lifted) => lifted,
-        Err(Parallel(unit)) => {
-            return Ok(Err(vec![Fault { units: vec![unit], reason: "has parallel rods".into() }]));
-        }
-    };
-    let rises = lifted.rises(weave);
-    let &FormSettings { overhang, round, surface_low, .. } = settings;
-    let how = Trimming { overhang, reach: REACH * edge, surface_low, sizes: &sizes };
-    let gaps = first_gaps(weave, &lifted, &how, round);
-    let resting = joints(weave, &rises.iter().map(|_| true).collect(), &gaps);
-    let over = match layer(&lifted.axes, &resting, &rises, settings.layering) {
-        Ok(over) => over,
-        Err(c) => return Ok(Err(vec![open_contact(weave, c)])),
-    };
-    let mut joints = joints(weave, &over, &gaps);
-    let mut axes = lifted.axes.clone();
-    let (closing, trimmed) = match close_to_size(weave, &mut axes, &mut joints, &how, round)? {
-        Ok(done) => done,
-        Err(faults) => return Ok(Err(faults)),
-    };
-    let moves = lifted
-        .axes
-        .iter()
-        .zip(&axes)
-        .flat_map(|(old, new)| [(new.a - old.a).norm(), (new.b - old.b).norm()])
-        .collect();
-    Ok(finish(weave, trimmed, &joints, sizes).map(|frame| Formed {
-        frame,
-        tiles: weave.units.iter().map(|unit| unit.tile).collect(),
-        closing,
-        moves,
-        ending_over: over,
-        rises,
-    }))
-}
-
-/// The gaps of all contacts before it is known who goes over. Where rods taper, the contacts
-/// lie about where they do before closing.
-fn first_gaps(weave: &Weave, lifted: &Lifted, how: &Trimming, round: f64) -> IdVec<ContactId, f64> {
-    let between =
-        |c: &WovenContact| gap_between([c.ending, c.passing].map(|r| how.sizes.middle(r)));
-    let midway = weave.contacts.iter().map(between).collect();
-    if !how.sizes.are_tapered() {
-        return midway;
-    }
-    let resting = joints(weave, &weave.contacts.iter().map(|_| true).collect(), &midway);
-    // What is wrong here comes out again when the contacts are closed.
-    trim(weave, &lifted.axes, &resting, how, &mut Lengths::new(round))
-        .map_or(midway, |trimmed| trimmed.diameters.iter().copied().map(gap_between).collect())
-}
-
-/// Closes the axes and cuts them to length; where rods taper, again until every gap is that of
-/// the rods where they touch.
-fn close_to_size(
-    weave: &Weave,
-    axes: &mut IdVec<RodId, Axis>,
-    joints: &mut IdVec<ContactId, Joint>,
-    how: &Trimming,
-    round: f64,
-) -> Result<Result<(Closing, Trimmed), Vec<Fault>>, FormError> {
-    let mut lengths = Lengths::new(round);
-    let mut unsettled = Vec::new();
-    for _ in 0..MOST_ROUNDS {
-        let closing = match close(axes, joints) {
-            Ok(closing) => closing,
-            Err(CloseError::Linear(e)) => return Err(unsolved(weave, e)),
-            Err(CloseError::Parallel(c)) => return Ok(Err(vec![open_contact(weave, c)])),
-            Err(CloseError::Diverged { open }) => {
-                return Ok(Err(open.into_iter().map(|c| open_contact(weave, c)).collect()));
-            }
-        };
-        let trimmed = match trim(weave, axes, joints, how, &mut lengths) {
-            Ok(trimmed) => trimmed,
-            Err(fault) => return Ok(Err(vec![fault])),
-        };
-        unsettled = how.sizes.refit(joints, &trimmed.diameters);
-        if unsettled.is_empty() {
-            return Ok(Ok((closing, trimmed)));
-        }
-    }
-    let fault = |c: ContactId| Fault {
-        units: vec![weave.contacts[c].unit],
-        reason: "its rods taper so much that the places where they touch do not settle".into(),
-    };
-    Ok(Err(unsettled.into_iter().map(fault).collect()))
-}
-
-fn open_contact(weave: &Weave, contact: ContactId) -> Fault {
-    let units = vec![weave.contacts[contact].unit];
-    Fault { units, reason: "two of its rods could not be brought to touch".into() }
-}
-
-fn joints(
-    weave: &Weave,
-    ending_over: &IdVec<ContactId, bool>,
-    gaps: &IdVec<ContactId, f64>,
-) -> IdVec<ContactId, Joint> {
-    weave
-        .contacts
-        .enumerate()
-        .map(|(id, c)| {
-            let (over, under) =
-                if ending_over[id] { (c.ending, c.passing) } else { (c.passing, c.ending) };
-            let kind = match c.kind {
-                ContactKind::End([ending, passing]) if over == c.passing => {
-                    ContactKind::End([passing, ending])
-                }
-                kind => kind,
-            };
-            Joint { over, under, outward: c.on.normal, diameter: gaps[id], kind }
-        })
-        .collect()
-}
-
-/// Checks the rods and puts the frame together.
-fn finish(
-    weave: &Weave,
-    trimmed: Trimmed,
-    joints: &IdVec<ContactId, Joint>,
-    sizes: Sizes,
-) -> Result<Frame, Vec<Fault>> {
-    let Trimmed { along, cut, axes, diameters, ground, supports } = trimmed;
-    // The rods that lie beside each other on a rod have to have room there.
-    let beside = |rod, c: ContactId| diameters[c][usize::from(joints[c].over == rod)];
-    let room = |rod, pair: [ContactId; 2]| ENGAGEMENT * gap_between(pair.map(|c| beside(rod, c)));
-    let faults = disorder(weave, &along, room);
-    if !faults.is_empty() {
-        return Err(faults);
-    }
-    let pairs: BTreeSet<[RodId; 2]> =
-        joints.iter().map(|j| [j.over.min(j.under), j.over.max(j.under)]).collect();
-    let faults = clash_faults(weave, &cut, &sizes.ends, &pairs);
-    if !faults.is_empty() {
-        return Err(faults);
-    }
-    let on = Ground { sizes, ground, supports };
-    assemble(weave, &axes, joints, on).map_err(|fault| vec![fault])
-}
-
-fn clash_faults(
-    weave: &Weave,
-    axes: &IdVec<RodId, Axis>,
-    sizes: &IdVec<RodId, [f64; 2]>,
-    pairs: &BTreeSet<[RodId; 2]>,
-) -> Vec<Fault> {
-    clashes(axes, sizes, pairs)
-        .iter()
-        .map(|clash| {
-            let units = clash.rods.iter().flat_map(|&r| weave.rods[r].units.clone()).collect();
-            let reason = format!(
-                "one of its rods would run into another: their axes pass at {:.2} mm",
-                clash.distance
-            );
-            Fault { units, reason }
-        })
-        .collect()
 }
 
 /// The number of units that a canvas would have, and their median rise, mm: what

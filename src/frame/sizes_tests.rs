@@ -1,6 +1,7 @@
 use super::*;
 use crate::chart::{Method, PlanarChart};
 use crate::frame::canvas::PlaneCanvas;
+use crate::frame::close::Way;
 use crate::frame::crop::{crop, held};
 use crate::frame::form::{FormError, FormSettings, Formed, form};
 use crate::frame::weave::weave;
@@ -26,7 +27,15 @@ fn canvas<'a>(chart: &'a PlanarChart, pattern: &str) -> PlaneCanvas<'a, PlanarCh
 fn formed(pattern: &str, round: f64, sizes: SizeTable) -> Result<Formed, FormError> {
     let (diameter, overhang) = (3.0, 6.0);
     let layering = Default::default();
-    let settings = FormSettings { diameter, sizes, overhang, round, layering, surface_low: 0.0 };
+    let settings = FormSettings {
+        diameter,
+        sizes,
+        overhang,
+        round,
+        layering,
+        way: Way::default(),
+        surface_low: 0.0,
+    };
     form(&canvas(&igloo(), pattern), &settings)
 }
 

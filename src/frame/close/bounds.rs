@@ -18,12 +18,14 @@ use std::collections::BTreeMap;
 pub struct Limits {
     /// The contacts of each rod, from end A to end B.
     pub along: IdVec<RodId, Vec<ContactId>>,
-    /// Least distance between neighbours among them.
-    pub room: f64,
+    /// Least distance between each of them and the next.
+    pub room: IdVec<RodId, Vec<f64>>,
     /// What is left of each rod beyond its first contact and beyond its last.
     pub beyond: IdVec<RodId, [f64; 2]>,
     /// How thick each rod is.
     pub thickness: IdVec<RodId, f64>,
+    /// What errors are measured by: the nominal diameter.
+    pub diameter: f64,
 }
 
 /// A bound that may have to be held.
@@ -50,7 +52,6 @@ const WATCHED: f64 = 4.0;
 pub struct Bounds<'a> {
     joints: &'a IdVec<ContactId, Joint>,
     limits: &'a Limits,
-    diameter: f64,
     /// Pairs that are near each other but in no contact.
     near: Vec<[RodId; 2]>,
 }
@@ -62,15 +63,14 @@ struct Foot {
 }
 
 impl<'a> Bounds<'a> {
-    /// Those of rods near these axes; `diameter` is what errors are measured by, mm.
+    /// Those of rods near these axes.
     pub fn new(
         axes: &IdVec<RodId, Axis>,
         joints: &'a IdVec<ContactId, Joint>,
         rows: &[Row],
         limits: &'a Limits,
-        diameter: f64,
     ) -> Self {
-        let mut bounds = Self { joints, limits, diameter, near: Vec::new() };
+        let mut bounds = Self { joints, limits, near: Vec::new() };
         bounds.watch(axes, rows);
         bounds
     }
@@ -79,7 +79,7 @@ impl<'a> Bounds<'a> {
     pub fn watch(&mut self, axes: &IdVec<RodId, Axis>, rows: &[Row]) {
         let places = self.places(axes, rows);
         let cut: IdVec<RodId, Axis> = axes.ids().map(|r| self.cut(axes, &places, r)).collect();
-        let reach = |r: RodId| (self.limits.thickness[r] + WATCHED * self.diameter) / 2.0;
+        let reach = |r: RodId| (self.limits.thickness[r] + WATCHED * self.limits.diameter) / 2.0;
         let boxes: Vec<Aabb<3>> =
             cut.enumerate().map(|(r, c)| Aabb::around(&[c.a, c.b]).grown(reach(r))).collect();
         let tree = Bvh::new(&boxes);
@@ -138,12 +138,12 @@ impl<'a> Bounds<'a> {
     /// The bounds that are broken, in order.
     pub fn broken(&self, axes: &IdVec<RodId, Axis>, rows: &[Row]) -> Vec<Bound> {
         let places = self.places(axes, rows);
-        let slack = BROKEN * self.diameter;
+        let slack = BROKEN * self.limits.diameter;
         let mut broken = Vec::new();
         for (rod, along) in self.limits.along.enumerate() {
             for (i, pair) in along.windows(2).enumerate() {
                 let [p, q] = [pair[0], pair[1]].map(|c| self.place(&places, rod, c));
-                if q - p < self.limits.room - slack {
+                if q - p < self.limits.room[rod][i] - slack {
                     broken.push(Bound::Room(rod, i as u32));
                 }
             }
@@ -164,10 +164,10 @@ impl<'a> Bounds<'a> {
     /// Adds the equation that holds a bound; nothing where its rods are parallel or meet.
     /// Returns whether it did.
     pub fn hold(&self, bound: Bound, axes: &IdVec<RodId, Axis>, to: &mut Equations) -> bool {
-        let spare = SPARE * self.diameter;
+        let spare = SPARE * self.limits.diameter;
         let row = match bound {
             Bound::Room(rod, i) => self.room(rod, i as usize, axes).map(|(value, parts)| {
-                to.push(parts, self.limits.room + spare - value);
+                to.push(parts, self.limits.room[rod][i as usize] + spare - value);
             }),
             Bound::Apart(rods) => self.distance(rods, axes).map(|(value, parts)| {
                 to.push(parts, self.apart(rods) + spare - value);
@@ -210,11 +210,11 @@ impl<'a> Bounds<'a> {
             axis.between(from * axis.length(), to * axis.length())
         };
         let cut = [span(rods[0], ends[0].at, ends[1].at), span(rods[1], ends[2].at, ends[3].at)];
-        let part = cut[0].nearest(&cut[1]);
+        let (part, _) = cut[0].nearest(&cut[1]);
         let points = [0, 1].map(|s| cut[s].a + (cut[s].b - cut[s].a) * part[s]);
         let apart = points[0] - points[1];
         let distance = apart.norm();
-        if distance.is_nan() || distance <= SPARE * self.diameter {
+        if distance.is_nan() || distance <= SPARE * self.limits.diameter {
             return None;
         }
         let across: Vector3 = apart / distance;

@@ -160,8 +160,7 @@ impl<'a> Task<'a> {
     }
 
     fn bounds(&self, axes: &IdVec<RodId, Axis>, rows: &[Row]) -> Option<Bounds<'a>> {
-        let diameter = rows.first()?.diameter;
-        Some(Bounds::new(axes, self.joints, rows, self.limits?, diameter))
+        Some(Bounds::new(axes, self.joints, rows, self.limits?))
     }
 }
 

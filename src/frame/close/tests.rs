@@ -43,9 +43,10 @@ fn limits(axes: &Axes, joints: &Joints, room: f64) -> Limits {
     along.iter_mut().for_each(|seats| seats.sort_by(|p, q| p.0.total_cmp(&q.0)));
     Limits {
         along: along.iter().map(|seats| seats.iter().map(|s| s.1).collect()).collect(),
-        room,
+        room: along.iter().map(|seats| vec![room; seats.len()]).collect(),
         beyond: vec![[6.0; 2]; axes.len()].into(),
         thickness: vec![3.0; axes.len()].into(),
+        diameter: 3.0,
     }
 }
 
@@ -135,7 +136,7 @@ fn gradients_of_bounds_agree_with_finite_differences() {
         let (axes, joints) = two_circuits(4, away);
         let limits = limits(&axes, &joints, 100.0);
         let rows = rows(&axes, &joints).unwrap();
-        let of = |axes: &Axes| Bounds::new(axes, &joints, &rows, &limits, 3.0);
+        let of = |axes: &Axes| Bounds::new(axes, &joints, &rows, &limits);
         let broken = of(&axes).broken(&axes, &rows);
         assert!(broken.len() >= 8, "{broken:?}");
         let h = 1e-5;

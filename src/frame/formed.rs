@@ -1,0 +1,43 @@
+//! What a frame is made from, and what comes of it.
+
+use super::Frame;
+use super::close::{Closing, Way};
+use super::layer::Layering;
+use super::sizes::SizeTable;
+use crate::ids::{ContactId, IdVec, TileId, UnitId};
+
+/// What a frame is made from, besides its canvas. Lengths in mm.
+#[derive(Clone, Debug)]
+pub struct FormSettings {
+    /// The nominal diameter of the rods.
+    pub diameter: f64,
+    /// Rods of other diameters.
+    pub sizes: SizeTable,
+    /// Rod left beyond its last contact.
+    pub overhang: f64,
+    /// Rod lengths are multiples of this; 0 for any length.
+    pub round: f64,
+    /// Who goes over.
+    pub layering: Layering,
+    /// How contacts are closed.
+    pub way: Way,
+    /// The lowest height of the surface.
+    pub surface_low: f64,
+}
+
+/// A finished frame and how it came about.
+#[derive(Clone, Debug)]
+pub struct Formed {
+    /// The frame.
+    pub frame: Frame,
+    /// The tile of each unit.
+    pub tiles: IdVec<UnitId, TileId>,
+    /// What the last closing took.
+    pub closing: Closing,
+    /// How far each end of each rod moved in it, mm.
+    pub moves: Vec<f64>,
+    /// Whether the ending rod of each contact goes over the passing one; true where ends meet.
+    pub ending_over: IdVec<ContactId, bool>,
+    /// Rise of every crossing before closing, mm.
+    pub rises: IdVec<ContactId, Option<f64>>,
+}
