@@ -6,7 +6,8 @@
 //!
 //! ```
 //! use rodwright::chart::{Method, PlanarChart};
-//! use rodwright::frame::{canvas::PlaneCanvas, fit::fit, form::{FormSettings, form}, layer::Layering};
+//! use rodwright::frame::{canvas::PlaneCanvas, close::Way, fit::fit, layer::Layering};
+//! use rodwright::frame::form::{FormSettings, form};
 //! use rodwright::surface::{samples::sample, topology::require_disk};
 //! use rodwright::{pattern::Pattern, tiling::Placement};
 //!

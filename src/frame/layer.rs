@@ -6,17 +6,17 @@
 //! rod ends that meets all contacts. This is done on overlapping [patches]; on each,
 //! contacts outside it count as free, so its cost is a lower bound.
 
+mod factor;
 mod flip;
 mod patches;
 
 use super::axis::Axis;
 use super::gaps::{Incidence, Joint, Row, incidence, product, rows};
 use crate::ids::{ContactId, IdVec, RodId};
+use factor::Factor;
 use flip::Choice;
-use nalgebra::DMatrix;
 use patches::{Patch, patches};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// The rule by which over and under are chosen.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, clap::ValueEnum)]
@@ -79,6 +79,8 @@ struct System {
     signs: Vec<f64>,
     /// Rows whose sign is free.
     free: Vec<bool>,
+    /// K⁻¹ᵢᵢ on the patch whose core holds the row, once known: signs do not change it.
+    diagonal: Vec<Option<f64>>,
 }
 
 fn auto(
@@ -87,28 +89,12 @@ fn auto(
     [core, rings]: [usize; 2],
 ) -> Result<IdVec<ContactId, bool>, ContactId> {
     let mut system = System::new(axes, joints)?;
-    let rods_of = joints.iter().map(|j| [j.over, j.under]).collect();
-    let mut patches = patches(&rods_of, axes.len(), core, rings);
-    patches.retain(|p| p.core.iter().any(|&c| system.free[system.first[c]]));
-    // When each contact was last turned over, and each patch last seen to.
-    let mut turned: IdVec<ContactId, usize> = vec![1; joints.len()].into();
-    let mut seen = vec![0; patches.len()];
-    let mut now = 1;
-    for _ in 0..SWEEPS {
-        let before = now;
-        for (patch, seen) in patches.iter().zip(&mut seen) {
-            if patch.core.iter().chain(&patch.rim).all(|&c| turned[c] <= *seen) {
-                continue;
-            }
-            now += 1;
-            for contact in system.settle(patch) {
-                turned[contact] = now;
-            }
-            *seen = now;
-        }
-        if now == before {
-            break;
-        }
+    // On domes no contact is free, and there is nothing to do.
+    if system.free.contains(&true) {
+        let rods_of = joints.iter().map(|j| [j.over, j.under]).collect();
+        let mut patches = patches(&rods_of, axes.len(), core, rings);
+        patches.retain(|p| p.core.iter().any(|&c| system.free[system.first[c]]));
+        system.settle_all(&patches);
     }
     Ok(joints.ids().map(|c| system.signs[system.first[c]] > 0.0).collect())
 }
@@ -123,15 +109,46 @@ impl System {
         let start = |row: &Row| if row.gap < -FLAT * row.diameter { -1.0 } else { 1.0 };
         let signs = rows.iter().map(|r| if crosses(r) { start(r) } else { 1.0 }).collect();
         let free = rows.iter().map(|r| crosses(r) && r.gap.abs() <= CLEAR * r.diameter).collect();
-        Ok(Self { around: incidence(axes.len(), &rows), rows, first, signs, free })
+        let diagonal = vec![None; rows.len()];
+        Ok(Self { around: incidence(axes.len(), &rows), rows, first, signs, free, diagonal })
+    }
+
+    /// Goes through the patches until nothing changes.
+    fn settle_all(&mut self, patches: &[Patch]) {
+        // When each contact was last turned over, and each patch last seen to.
+        let mut turned: IdVec<ContactId, usize> = vec![1; self.first.len()].into();
+        let mut seen = vec![0; patches.len()];
+        let mut now = 1;
+        for _ in 0..SWEEPS {
+            let before = now;
+            for (patch, seen) in patches.iter().zip(&mut seen) {
+                if patch.core.iter().chain(&patch.rim).all(|&c| turned[c] <= *seen) {
+                    continue;
+                }
+                now += 1;
+                for contact in self.settle(patch) {
+                    turned[contact] = now;
+                }
+                *seen = now;
+            }
+            if now == before {
+                break;
+            }
+        }
     }
 
     /// Chooses in the core of a patch; the contacts that were turned over.
     fn settle(&mut self, patch: &Patch) -> Vec<ContactId> {
-        let Some((places, mut choice)) = self.choice(patch) else { return Vec::new() };
-        let core = |&i: &usize| patch.core.contains(&self.rows[places[i]].contact);
-        let free: Vec<usize> =
-            (0..places.len()).filter(|&i| self.free[places[i]]).filter(core).collect();
+        let mut places = self.rows_of(&patch.core);
+        let core = places.len();
+        let free: Vec<usize> = (0..core).filter(|&i| self.free[places[i]]).collect();
+        places.extend(self.rows_of(&patch.rim));
+        let Some(factor) = self.factor(&places, core) else { return Vec::new() };
+        let mut diagonal = vec![0.0; core];
+        for &i in &free {
+            diagonal[i] = *self.diagonal[places[i]].get_or_insert_with(|| factor.diagonal(i));
+        }
+        let mut choice = self.choice(&places, &factor, diagonal);
         choice.settle(&free);
         let mut turned = Vec::new();
         for i in free {
@@ -144,32 +161,42 @@ impl System {
         turned
     }
 
-    /// The rows of a patch and the choice on them; none where they contradict each other,
-    /// as closing will find.
-    fn choice(&self, patch: &Patch) -> Option<(Vec<usize>, Choice)> {
-        let of = |&c: &ContactId| (self.first[c]..).take_while(move |&i| self.is_of(i, c));
-        let places: Vec<usize> = patch.core.iter().chain(&patch.rim).flat_map(of).collect();
-        let order: BTreeMap<usize, usize> =
+    /// The choice so far on some rows, those of a core first.
+    fn choice<'a>(&self, places: &[usize], factor: &'a Factor, diagonal: Vec<f64>) -> Choice<'a> {
+        let rows = || places.iter().map(|&row| (&self.rows[row], self.signs[row]));
+        let signs = rows().map(|(_, sign)| sign).take(diagonal.len()).collect();
+        let residual = rows().map(|(row, sign)| sign * row.wanted - row.gap).collect();
+        let wanted = rows().map(|(row, _)| row.wanted).take(diagonal.len()).collect();
+        let diameter = rows().next().map_or(0.0, |(row, _)| row.diameter);
+        Choice::new(factor, diagonal, signs, residual, wanted, diameter)
+    }
+
+    /// Factors K of some rows, the first `core` of them the core; none where they
+    /// contradict each other, as closing will find.
+    fn factor(&self, places: &[usize], core: usize) -> Option<Factor> {
+        let mut order: Vec<(usize, usize)> =
             places.iter().enumerate().map(|(i, &row)| (row, i)).collect();
-        let mut k = DMatrix::zeros(places.len(), places.len());
+        order.sort_unstable();
+        let place = |row: usize| {
+            order.binary_search_by_key(&row, |&(row, _)| row).ok().map(|at| order[at].1)
+        };
+        let mut parts = Vec::new();
         for (i, &row) in places.iter().enumerate() {
             for (rod, over) in self.rows[row].rods.into_iter().zip([true, false]) {
                 for &other in &self.around[rod] {
-                    if let Some(&j) = order.get(&other.row) {
-                        k[(i, j)] += product(&self.rows, Incidence { row, over }, other);
+                    if let Some(j) = place(other.row).filter(|&j| j <= i) {
+                        parts.push((i, j, product(&self.rows, Incidence { row, over }, other)));
                     }
                 }
             }
         }
-        let signs: Vec<f64> = places.iter().map(|&row| self.signs[row]).collect();
-        let residual = places.iter().zip(&signs).map(|(&row, sign)| {
-            let row = &self.rows[row];
-            sign * row.wanted - row.gap
-        });
-        let diameter = self.rows[*places.first()?].diameter;
-        let residual = residual.collect();
-        let wanted = places.iter().map(|&row| self.rows[row].wanted).collect();
-        Some((places, Choice::new(k, signs, residual, wanted, diameter)?))
+        Factor::new(places.len(), core, &parts)
+    }
+
+    /// The rows of some contacts.
+    fn rows_of(&self, contacts: &[ContactId]) -> Vec<usize> {
+        let of = |&c: &ContactId| (self.first[c]..).take_while(move |&i| self.is_of(i, c));
+        contacts.iter().flat_map(of).collect()
     }
 
     fn is_of(&self, row: usize, contact: ContactId) -> bool {

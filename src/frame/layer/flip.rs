@@ -1,7 +1,8 @@
 //! The cost of a choice of who goes over, and contacts turned over while it falls.
 //!
-//! With h the rises, w the wanted gaps (the diameter, where all rods have one) and K = J Jᵀ, the least move of rod ends that
-//! meets the linearised contacts of a choice s has the squared size
+//! With h the rises, w the wanted gaps (the diameter, where all rods have one) and
+//! K = J Jᵀ, the least move of rod ends that meets the linearised contacts of a choice s
+//! has the squared size
 //!
 //! ```text
 //! (s w − h)ᵀ K⁻¹ (s w − h)
@@ -10,11 +11,10 @@
 //! the *cost*. With g = K⁻¹ (s w − h), turning contact i over changes it by
 //! −4 sᵢ w gᵢ + 4 w² K⁻¹ᵢᵢ.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use super::factor::Factor;
 
-/// A choice on some rows, and what it costs.
-#[derive(Clone, Debug)]
-pub struct Choice {
+/// A choice on the rows of a core, and what it costs.
+pub struct Choice<'a> {
     /// +1 where the ending rod goes over, −1 where it goes under.
     signs: Vec<f64>,
     /// w of every row.
@@ -22,16 +22,14 @@ pub struct Choice {
     /// What gains are measured by.
     diameter: f64,
     /// K⁻¹.
-    inverse: DMatrix<f64>,
-    /// What is wanted less what is: s w − h; −h where ends meet.
-    residual: DVector<f64>,
+    factor: &'a Factor,
+    /// K⁻¹ᵢᵢ of the rows that may be turned over.
+    diagonal: Vec<f64>,
+    /// What is wanted less what is, of all rows: s w − h; −h where ends meet.
+    residual: Vec<f64>,
     /// g = K⁻¹ (s w − h).
-    pull: DVector<f64>,
+    pull: Vec<f64>,
 }
-
-/// Added to the diagonal of K, as part of its largest entry: rounding cannot make the
-/// sum indefinite then, and no move that matters is as weak as this.
-const DIAGONAL: f64 = 1e-9;
 
 /// What a turn has to save, in squared diameters: as much as moving one rod end by a
 /// diameter. A rod turned to end below another may have to be tied there; with less, some
@@ -43,28 +41,25 @@ const GAIN: f64 = 1.0;
 /// ties on regular patterns do not hang on rounding.
 const TIE: f64 = 1e-6;
 
-impl Choice {
-    /// The choice `signs` on rows with this K, and residuals from it; none where K cannot
-    /// be inverted.
+impl<'a> Choice<'a> {
+    /// The choice `signs` on a core with this K⁻¹, whose diagonal is given where rows may be
+    /// turned over, and the residuals of all rows, those of the core first.
     pub fn new(
-        mut k: DMatrix<f64>,
+        factor: &'a Factor,
+        diagonal: Vec<f64>,
         signs: Vec<f64>,
         residual: Vec<f64>,
         wanted: Vec<f64>,
         diameter: f64,
-    ) -> Option<Self> {
-        let small = DIAGONAL * k.diagonal().amax();
-        (0..k.nrows()).for_each(|i| k[(i, i)] += small);
-        let inverse = Cholesky::new(k)?.inverse();
-        let residual = DVector::from(residual);
-        let pull = &inverse * &residual;
-        Some(Self { signs, wanted, diameter, inverse, residual, pull })
+    ) -> Self {
+        let pull = factor.times(&residual);
+        Self { signs, wanted, diameter, factor, diagonal, residual, pull }
     }
 
-    /// The cost, mm².
+    /// The cost, mm², where all rows are in the core.
     #[cfg(test)]
     pub fn cost(&self) -> f64 {
-        self.residual.dot(&self.pull)
+        self.residual.iter().zip(&self.pull).map(|(r, g)| r * g).sum()
     }
 
     /// The sign of a row.
@@ -75,14 +70,16 @@ impl Choice {
     /// By how much turning a row over would change the cost, mm².
     pub fn change(&self, i: usize) -> f64 {
         let w = self.wanted[i];
-        4.0 * w * (w * self.inverse[(i, i)] - self.signs[i] * self.pull[i])
+        4.0 * w * (w * self.diagonal[i] - self.signs[i] * self.pull[i])
     }
 
     /// Turns a row over.
     pub fn flip(&mut self, i: usize) {
         let step = -2.0 * self.signs[i] * self.wanted[i];
         self.residual[i] += step;
-        self.pull.axpy(step, &self.inverse.column(i), 1.0);
+        for (pull, part) in self.pull.iter_mut().zip(self.factor.column(i)) {
+            *pull += step * part;
+        }
         self.signs[i] = -self.signs[i];
     }
 
@@ -109,6 +106,7 @@ impl Choice {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::DMatrix;
     use proptest::prelude::*;
 
     /// A positive definite K = J Jᵀ of `n` rows, with signs and rises.
@@ -124,30 +122,42 @@ mod tests {
         })
     }
 
-    fn choice(k: &DMatrix<f64>, signs: &[f64], rises: &[f64], w: f64) -> Choice {
+    fn factor(k: &DMatrix<f64>) -> Factor {
+        let n = k.nrows();
+        let lower = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j)));
+        Factor::new(n, n, &lower.map(|at| (at.0, at.1, k[at])).collect::<Vec<_>>()).unwrap()
+    }
+
+    fn choice<'a>(factor: &'a Factor, signs: &[f64], rises: &[f64], w: f64) -> Choice<'a> {
         let residual = signs.iter().zip(rises).map(|(s, h)| s * w - h).collect();
-        Choice::new(k.clone(), signs.to_vec(), residual, vec![w; signs.len()], w).unwrap()
+        let diagonal = (0..signs.len()).map(|i| factor.diagonal(i)).collect();
+        Choice::new(factor, diagonal, signs.to_vec(), residual, vec![w; signs.len()], w)
     }
 
     proptest! {
         #[test]
         fn a_flip_changes_the_cost_by_the_formula((k, signs, rises) in system(8), i in 0..8usize) {
             let w = 1.5;
-            let mut now = choice(&k, &signs, &rises, w);
+            let factor = factor(&k);
+            let mut now = choice(&factor, &signs, &rises, w);
             let (cost, change) = (now.cost(), now.change(i));
             now.flip(i);
             let mut turned = signs;
             turned[i] = -turned[i];
-            let anew = choice(&k, &turned, &rises, w);
+            let anew = choice(&factor, &turned, &rises, w);
             let size = 1.0 + cost.abs() + change.abs();
             prop_assert!((anew.cost() - cost - change).abs() < 1e-9 * size);
             prop_assert!((now.cost() - anew.cost()).abs() < 1e-9 * size);
-            prop_assert!((&now.pull - &anew.pull).amax() < 1e-9 * (1.0 + anew.pull.amax()));
+            let largest = anew.pull.iter().fold(1.0, |most, g| g.abs().max(most));
+            for (now, anew) in now.pull.iter().zip(&anew.pull) {
+                prop_assert!((now - anew).abs() < 1e-9 * largest);
+            }
         }
 
         #[test]
         fn the_cost_falls_until_no_single_flip_saves_enough((k, signs, rises) in system(8)) {
-            let mut now = choice(&k, &signs, &rises, 1.0);
+            let factor = factor(&k);
+            let mut now = choice(&factor, &signs, &rises, 1.0);
             let before = now.cost();
             let free = [0, 1, 2, 4, 5, 7];
             now.settle(&free);

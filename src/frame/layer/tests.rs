@@ -53,7 +53,9 @@ impl Laid {
         }
         let all = Patch { core: self.joints.ids().collect(), rim: Vec::new() };
         let w = self.joints[all.core[0]].diameter;
-        let (_, choice) = system.choice(&all).unwrap();
+        let places = system.rows_of(&all.core);
+        let factor = system.factor(&places, places.len()).unwrap();
+        let choice = system.choice(&places, &factor, vec![0.0; places.len()]);
         choice.cost() / (w * w * self.joints.len() as f64)
     }
 }
