@@ -5,7 +5,8 @@ use crate::drawing::pdf::{self, DocumentInfo, Page};
 use crate::drawing::{DrawingError, svg};
 use crate::frame::arrangement::arrangement;
 use crate::pipeline::Model;
-use crate::sheets::{Sheet, SheetError, SheetSettings, footprint, pictures, sheets, support_map};
+use crate::sheets::{Sheet, SheetError, SheetSettings, footprint, histogram_pairs, histograms};
+use crate::sheets::{pictures, sheets, support_map};
 use crate::shop::lengths::classes;
 use crate::write::cutlist::{cutlist_csv, cutlist_json};
 use crate::write::glb::{GlbError, glb};
@@ -58,6 +59,8 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
         for (name, picture) in pictures(frame) {
             files.add(format!("pictures/{name}.svg"), svg::render(&picture)?);
         }
+        let figures = histograms(&histogram_pairs(&model.measures))?;
+        files.add("pictures/histograms.svg", svg::render(&figures)?);
     }
     Ok(files.0)
 }
@@ -92,7 +95,7 @@ fn report(design: &Design, model: &Model) -> Report {
 fn add_sheets(design: &Design, model: &Model, files: &mut Files) -> Result<(), DocumentError> {
     let plane = model.footprint.as_ref();
     let settings = sheet_settings(design, model);
-    let sheets = sheets(&model.formed.frame, plane, &model.plan, &settings)?;
+    let sheets = sheets(&model.formed.frame, &model.measures, plane, &model.plan, &settings)?;
     for sheet in &sheets {
         files.add(format!("sheets/{}.svg", sheet.stem), svg::render(&sheet.page.drawing)?);
     }

@@ -48,7 +48,7 @@ pub enum Part {
     SupportMap,
     /// footprint.svg: the flattened surface on its pattern.
     Footprint,
-    /// pictures/*.svg: the frame from the side and from above.
+    /// pictures/*.svg: the frame from the side and from above, and its histograms.
     Pictures,
 }
 

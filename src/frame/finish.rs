@@ -67,6 +67,7 @@ pub fn finish(
         moves,
         ending_over: over,
         rises,
+        lifted_middles: lifted.middles(weave),
     }))
 }
 

@@ -5,6 +5,7 @@ use super::close::{Closing, Way};
 use super::layer::Layering;
 use super::sizes::SizeTable;
 use crate::ids::{ContactId, IdVec, TileId, UnitId};
+use crate::surface::Point3;
 
 /// What a frame is made from, besides its canvas. Lengths in mm.
 #[derive(Clone, Debug)]
@@ -40,4 +41,6 @@ pub struct Formed {
     pub ending_over: IdVec<ContactId, bool>,
     /// Rise of every crossing before closing, mm.
     pub rises: IdVec<ContactId, Option<f64>>,
+    /// Middle of every contact before closing: half-way between its two rods.
+    pub lifted_middles: IdVec<ContactId, Point3>,
 }

@@ -8,6 +8,7 @@ use super::ContactKind;
 use super::axis::{Axis, Crossing};
 use super::weave::{Weave, WovenContact};
 use crate::ids::{ContactId, IdVec, RodId, UnitId};
+use crate::surface::Point3;
 
 /// Rods in space before any contact is met.
 #[derive(Clone, Debug)]
@@ -45,6 +46,22 @@ impl Lifted {
             ContactKind::End(_) => None,
         };
         weave.contacts.iter().map(rise).collect()
+    }
+
+    /// The middle of every contact: half-way between the nearest points of both axes, or
+    /// between the ends that are to meet.
+    pub fn middles(&self, weave: &Weave) -> IdVec<ContactId, Point3> {
+        let middle = |c: &WovenContact| {
+            let [ending, passing] = [c.ending, c.passing].map(|rod| &self.axes[rod]);
+            let [p, q] = match (c.kind, self.crossing(c)) {
+                (ContactKind::Cross, Some(x)) => [ending.at(x.at_first), passing.at(x.at_second)],
+                // Axes that do not cross have been refused by then.
+                (ContactKind::Cross, None) => [c.on.position; 2],
+                (ContactKind::End([e, p]), _) => [ending.end(e), passing.end(p)],
+            };
+            nalgebra::center(&p, &q)
+        };
+        weave.contacts.iter().map(middle).collect()
     }
 }
 

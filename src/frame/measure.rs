@@ -2,11 +2,12 @@
 
 use super::form::Formed;
 use super::guide::Guide;
+use super::histogram::{BeforeAfter, Histogram};
+use super::regularity::{Regularity, regularity};
 use super::{Contact, Frame};
 use crate::ids::{ContactId, IdVec};
 use crate::surface::Point3;
 use serde::Serialize;
-use std::f64::consts::PI;
 
 /// Figures of a frame. Lengths in mm, angles in degrees.
 #[derive(Clone, PartialEq, Debug, Serialize)]
@@ -37,7 +38,7 @@ pub struct Measures {
     pub unit_angles: Spread,
     /// Deviation of the inner polygons' sides from their mean, as part of it.
     pub unit_sides: Spread,
-    /// The same two deviations, counted in bins.
+    /// Figures of single rods and contacts, counted in bins.
     pub histograms: Histograms,
 }
 
@@ -51,24 +52,25 @@ pub struct Spread {
     pub max: f64,
 }
 
-/// Regularity of the units (paper, Fig. 12 and 14).
+/// How figures of single rods and contacts are spread (paper, Fig. 12 and 14): of the
+/// lifted rods, before any contact is closed, and of the finished frame.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Histograms {
-    /// Deviation of angles, degrees.
-    pub unit_angles: Histogram,
-    /// Deviation of sides, part of the mean.
-    pub unit_sides: Histogram,
+    /// Deviation of the inner polygons' angles from regular, degrees.
+    pub unit_angles: BeforeAfter,
+    /// Deviation of the inner polygons' sides from their mean, as part of it.
+    pub unit_sides: BeforeAfter,
+    /// Distance of the contacts' middles from the guiding surface, in rod diameters.
+    pub off_surface: BeforeAfter,
+    /// How far rod ends moved in closing, in rod diameters.
+    pub moves: Histogram,
 }
 
-/// Counts in bins of equal width from zero; the last bin takes all above, too.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct Histogram {
-    pub bin: f64,
-    pub counts: Vec<usize>,
-}
-
-/// Number of bins of a histogram.
-const BINS: usize = 20;
+/// Least widths of bins, as the figures are given. Frames that came out well show several
+/// bars then, and are counted in the same bins.
+const ANGLE_BIN: f64 = 1.0;
+const SIDE_BIN: f64 = 0.02;
+const DIAMETER_BIN: f64 = 0.1;
 
 /// Rods whose lengths differ by less are of one length, mm. Cut lengths are multiples
 /// of the rounding step up to the noise of arithmetic; a larger bound would only
@@ -85,7 +87,10 @@ pub fn measure(formed: &Formed, guide: &Guide) -> Measures {
     let gap_error = |c: &Contact| (c.gap - frame.wanted_gap(c)).abs() / w;
     let middles: IdVec<ContactId, Point3> =
         frame.contacts.ids().map(|c| frame.contact_middle(c)).collect();
-    let (angles, sides) = regularity(frame, &middles);
+    let moves: Vec<f64> = formed.moves.iter().map(|m| m / w).collect();
+    let from_surface = guide.distances(&middles);
+    let regular = units(frame, &middles);
+    let histograms = histograms(formed, guide, &regular, &from_surface, &moves);
     Measures {
         rods: frame.rods.len(),
         units: frame.units.len(),
@@ -95,39 +100,38 @@ pub fn measure(formed: &Formed, guide: &Guide) -> Measures {
         lengths: [lengths[0], lengths[lengths.len() - 1]],
         distinct_lengths: distinct + 1,
         worst_gap: frame.contacts.iter().map(gap_error).fold(0.0, f64::max),
-        moves: spread(formed.moves.iter().map(|m| m / w)),
+        moves: spread(moves.into_iter()),
         rises: spread(formed.rises.iter().flatten().map(|r| r / w)),
-        from_surface: spread(guide.distances(&middles).into_iter()),
-        unit_angles: spread(angles.iter().copied()),
-        unit_sides: spread(sides.iter().copied()),
-        histograms: Histograms {
-            unit_angles: histogram(&angles, 1.0),
-            unit_sides: histogram(&sides, 0.02),
-        },
+        from_surface: spread(from_surface.into_iter()),
+        unit_angles: spread(regular.angles.into_iter()),
+        unit_sides: spread(regular.sides.into_iter()),
+        histograms,
     }
 }
 
-/// Deviations of the inner polygons from regular ones: angles in degrees, sides as
-/// part of the mean side of the unit.
-fn regularity(frame: &Frame, middles: &IdVec<ContactId, Point3>) -> (Vec<f64>, Vec<f64>) {
-    let (mut angles, mut sides) = (Vec::new(), Vec::new());
-    for unit in &frame.units {
-        let round = frame.circuit(unit);
-        let n = round.len();
-        if n == 0 {
-            continue;
-        }
-        let corner = |i: usize| middles[round[i % n]];
-        let regular = PI - 2.0 * PI / n as f64;
-        let lengths: Vec<f64> = (0..n).map(|i| (corner(i + 1) - corner(i)).norm()).collect();
-        let mean = lengths.iter().sum::<f64>() / n as f64;
-        sides.extend(lengths.iter().map(|length| length / mean - 1.0));
-        angles.extend((0..n).map(|i| {
-            let (back, ahead) = (corner(i) - corner(i + 1), corner(i + 2) - corner(i + 1));
-            (back.angle(&ahead) - regular).to_degrees()
-        }));
+/// How regular the units are whose contacts have these middles.
+fn units(frame: &Frame, middles: &IdVec<ContactId, Point3>) -> Regularity {
+    let corners = |unit| frame.circuit(unit).iter().map(|&c| middles[c]).collect();
+    regularity(frame.units.iter().map(corners))
+}
+
+fn histograms(
+    formed: &Formed,
+    guide: &Guide,
+    regular: &Regularity,
+    from_surface: &[f64],
+    moves: &[f64],
+) -> Histograms {
+    let frame = &formed.frame;
+    let before = units(frame, &formed.lifted_middles);
+    let lifted = guide.distances(&formed.lifted_middles);
+    let diameters = |mm: &[f64]| mm.iter().map(|d| d / frame.diameter).collect::<Vec<_>>();
+    Histograms {
+        unit_angles: BeforeAfter::new(&before.angles, &regular.angles, ANGLE_BIN),
+        unit_sides: BeforeAfter::new(&before.sides, &regular.sides, SIDE_BIN),
+        off_surface: BeforeAfter::new(&diameters(&lifted), &diameters(from_surface), DIAMETER_BIN),
+        moves: Histogram::new(moves, DIAMETER_BIN),
     }
-    (angles, sides)
 }
 
 fn spread(values: impl Iterator<Item = f64>) -> Spread {
@@ -143,14 +147,6 @@ fn spread(values: impl Iterator<Item = f64>) -> Spread {
     }
 }
 
-fn histogram(values: &[f64], bin: f64) -> Histogram {
-    let mut counts = vec![0; BINS];
-    for value in values {
-        counts[((value.abs() / bin) as usize).min(BINS - 1)] += 1;
-    }
-    Histogram { bin, counts }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -160,11 +156,5 @@ mod tests {
         let s = spread([3.0, -4.0, 0.0].into_iter());
         assert_eq!((s.median, s.max), (3.0, 4.0));
         assert!((s.mean + 1.0 / 3.0).abs() < 1e-15 && (s.rms - (25f64 / 3.0).sqrt()).abs() < 1e-15);
-    }
-
-    #[test]
-    fn histogram_counts_all_and_keeps_the_far_ones() {
-        let h = histogram(&[0.1, -0.3, 1.7, 99.0], 1.0);
-        assert_eq!((h.counts[0], h.counts[1], h.counts[BINS - 1]), (2, 1, 1));
     }
 }

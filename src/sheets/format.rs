@@ -106,7 +106,7 @@ pub(super) fn percent(share: f64) -> String {
 }
 
 /// With so many decimals; never `-0.0`.
-fn fixed(x: f64, decimals: usize) -> String {
+pub(super) fn fixed(x: f64, decimals: usize) -> String {
     let text = format!("{x:.decimals$}");
     match text.strip_prefix('-') {
         Some(digits) if digits.chars().all(|c| c == '0' || c == '.') => digits.to_owned(),

@@ -1,7 +1,7 @@
 //! The papers of the workshop: pages made of drawings.
 //!
-//! [`sheets`] gives the pages of the workshop document: cover, cut list with sawing
-//! plan, rod cards and the table of feet. [`support_map`] gives the map of the feet at
+//! [`sheets`] gives the pages of the workshop document: cover, figures, cut list with sawing
+//! plan, rod cards and the table of feet. [`histograms`] shows some of the figures. [`support_map`] gives the map of the feet at
 //! full size, in one piece and tiled over pages, [`footprint`] the surface laid flat.
 //! [`pattern_picture`], [`pattern_sheet`] and [`contact_sheet`] show what there is to choose
 //! from. Nothing here writes files: pages are rendered by [`drawing::pdf`](crate::drawing::pdf) and [`drawing::svg`](crate::drawing::svg).
@@ -10,8 +10,10 @@ mod band;
 mod contact_sheet;
 mod cover;
 mod cut_list;
+mod figures;
 pub mod footprint;
 mod format;
+mod histograms;
 mod legend;
 mod line_picture;
 mod page;
@@ -30,6 +32,7 @@ mod tests;
 
 pub use contact_sheet::{Exhibit, contact_sheet};
 pub use format::PaperUnits;
+pub use histograms::{HistogramPair, histogram_pairs, histograms};
 pub use page::Sheet;
 pub use paper::{Paper, PaperError};
 pub use pattern_picture::{PictureError, pattern_picture};
@@ -39,6 +42,7 @@ pub use pictures::pictures;
 use crate::drawing::DrawingError;
 use crate::frame::Frame;
 use crate::frame::footprint::Footprint;
+use crate::frame::measure::Measures;
 use crate::shop::CutPlan;
 
 /// How the papers look.
@@ -76,19 +80,21 @@ pub enum SheetError {
     },
 }
 
-/// The pages of the workshop document; `plane` is for models on a flattened surface.
+/// The pages of the workshop document; `measures` are the figures of the frame, `plane` is for models on a flattened surface.
 ///
 /// # Errors
 /// [`SheetError::PaperTooSmall`]; [`SheetError::Drawing`] if the frame holds numbers
 /// that are not finite.
 pub fn sheets(
     frame: &Frame,
+    measures: &Measures,
     plane: Option<&Footprint>,
     plan: &CutPlan,
     settings: &SheetSettings,
 ) -> Result<Vec<Sheet>, SheetError> {
     let settings = settings.checked()?;
     let mut leaves = cover::cover(frame, plan, &settings)?;
+    leaves.extend(figures::page(measures, &settings)?);
     if let Some(plane) = plane {
         leaves.extend(footprint::page(plane, &settings)?);
     }

@@ -29,11 +29,11 @@ pub(super) const SMALLEST: f64 = 6.0 * 25.4 / 72.0;
 /// Gap between the columns of a table, mm.
 const GUTTER: f64 = 3.5;
 /// Height of a table line in font sizes.
-const TABLE_LEADING: f64 = 1.55;
+pub(super) const TABLE_LEADING: f64 = 1.55;
 /// Thin lines.
 pub(super) const THIN: Stroke = Stroke::new(0.15);
 /// Faint lines between the rows of a table.
-const FAINT: Stroke = Stroke::new(0.1).color(Color::LIGHT_GREY);
+pub(super) const FAINT: Stroke = Stroke::new(0.1).color(Color::LIGHT_GREY);
 
 /// A finished page.
 #[derive(Clone, PartialEq, Debug)]

@@ -9,7 +9,7 @@ use crate::shop::lengths::sticks;
 use crate::shop::{Stock, cutlist, feet, fixture, marks};
 use std::sync::LazyLock;
 
-static LAID: LazyLock<(Frame, Footprint)> =
+static LAID: LazyLock<(Frame, Footprint, Measures)> =
     LazyLock::new(|| fixture::laid_on_sample("igloo", "4.4.4.4", [0.0; 2], 0.3));
 static IGLOO: LazyLock<Frame> = LazyLock::new(|| LAID.0.clone());
 
@@ -26,7 +26,7 @@ fn cut_plan(frame: &Frame) -> CutPlan {
 
 fn pages_of(frame: &Frame, paper: Paper, units: PaperUnits) -> Vec<Sheet> {
     let settings = settings(paper, units);
-    let mut all = sheets(frame, Some(&LAID.1), &cut_plan(frame), &settings).unwrap();
+    let mut all = sheets(frame, &LAID.2, Some(&LAID.1), &cut_plan(frame), &settings).unwrap();
     all.extend(support_map::pages(frame, &settings).unwrap());
     all
 }
@@ -279,17 +279,20 @@ fn pages_are_named_in_order_and_render() {
     let frame = fixture::circuit(4, 3.0);
     let settings =
         SheetSettings { model: "家 igloo\n".to_owned(), ..settings(Paper::A4, PaperUnits::Mm) };
-    let pages = sheets(&frame, None, &cut_plan(&frame), &settings).unwrap();
+    let pages = sheets(&frame, &LAID.2, None, &cut_plan(&frame), &settings).unwrap();
     let stems: Vec<&str> = pages.iter().map(|s| s.stem.as_str()).collect();
-    assert_eq!(stems, ["01-cover", "02-cut-list", "03-rod-cards", "04-support-map"]);
-    let laid = sheets(&frame, Some(&LAID.1), &cut_plan(&frame), &settings).unwrap();
+    let expected = ["01-cover", "02-figures", "03-cut-list", "04-rod-cards", "05-support-map"];
+    assert_eq!(stems, expected);
+    let laid = sheets(&frame, &LAID.2, Some(&LAID.1), &cut_plan(&frame), &settings).unwrap();
     let stems: Vec<&str> = laid.iter().map(|s| s.stem.as_str()).collect();
-    let expected = ["01-cover", "02-footprint", "03-cut-list", "04-rod-cards", "05-support-map"];
+    let mut expected = expected.map(|stem| stem[3..].to_owned()).to_vec();
+    expected.insert(2, "footprint".to_owned());
+    let stems: Vec<&str> = stems.iter().map(|stem| &stem[3..]).collect();
     assert_eq!(stems, expected);
     let pages: Vec<_> = pages.into_iter().map(|s| s.page).collect();
     assert!(render(&pages, &DocumentInfo::default()).is_ok());
     assert!(texts(&pages[1].drawing).any(|t| t.string == "? igloo "));
-    assert!(texts(&pages[1].drawing).any(|t| t.string == "page 2/4"));
+    assert!(texts(&pages[1].drawing).any(|t| t.string == "page 2/5"));
 }
 
 #[test]
@@ -298,7 +301,7 @@ fn paper_without_room_is_refused() {
     for size in [[100.0, 300.0], [200.0, f64::NAN]] {
         let [width, height] = size;
         let settings = settings(Paper::Custom { width, height }, PaperUnits::Mm);
-        let error = sheets(&frame, None, &cut_plan(&frame), &settings).unwrap_err();
+        let error = sheets(&frame, &LAID.2, None, &cut_plan(&frame), &settings).unwrap_err();
         assert!(error.to_string().contains("too small"), "{error}");
     }
 }

@@ -8,6 +8,8 @@ use crate::frame::fit::fit;
 use crate::frame::footprint::{Footprint, footprint};
 use crate::frame::form::{FormSettings, form};
 use crate::frame::gaps::Joint;
+use crate::frame::guide::Guide;
+use crate::frame::measure::{Measures, measure};
 use crate::frame::{Chirality, Contact, ContactKind, End, Frame, Rod, Support, Unit};
 use crate::ids::{ContactId, Id, IdVec, RodId, UnitId};
 use crate::pattern::Pattern;
@@ -106,13 +108,14 @@ pub(crate) fn on_sample(surface: &str, pattern: &str) -> Frame {
     laid_on_sample(surface, pattern, [0.0; 2], 0.0).0
 }
 
-/// The same with its pattern moved and turned, and the plane on which it was laid out.
+/// The same with its pattern moved and turned, the plane on which it was laid out, and its
+/// figures.
 pub(crate) fn laid_on_sample(
     surface: &str,
     pattern: &str,
     origin: [f64; 2],
     rotation: f64,
-) -> (Frame, Footprint) {
+) -> (Frame, Footprint, Measures) {
     let mesh = sample(surface).unwrap();
     let surface_low = mesh.bounds().unwrap()[0].z;
     let topology = require_disk(&mesh).unwrap();
@@ -134,5 +137,7 @@ pub(crate) fn laid_on_sample(
     let canvas = PlaneCanvas::new(&chart, pattern, placement, shape).unwrap();
     let formed = form(&canvas, &settings).unwrap();
     let plane = footprint(&chart, pattern, placement, shape, &formed.tiles).unwrap();
-    (formed.frame, plane)
+    let guide = Guide::Chart { mesh: chart.mesh().clone(), distortion: chart.distortion().clone() };
+    let measures = measure(&formed, &guide);
+    (formed.frame, plane, measures)
 }

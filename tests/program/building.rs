@@ -88,6 +88,8 @@ fn a_run_writes_every_file_of_the_folder_and_the_same_bytes_twice() {
         "support-map.svg",
         "support-map.pdf",
         "footprint.svg",
+        "pictures/histograms.svg",
+        "sheets/02-figures.svg",
         "design.toml",
     ] {
         assert!(first.contains_key(name), "{name} is missing");
