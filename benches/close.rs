@@ -73,7 +73,7 @@ fn problem(path: &Path) {
     let circuits = circuits(&file, &joints);
     let edge = axes.iter().map(Axis::length).sum::<f64>() / axes.len() as f64 / ROD_LENGTH;
     let limits = limits(&axes, &joints, file.w);
-    let task = Task { joints: &joints, circuits: &circuits, limits: None, edge };
+    let task = Task { joints: &joints, circuits: &circuits, limits: None, roam: None, edge };
     let bounded = Task { limits: Some(&limits), ..task };
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     for (way, task) in [(Way::Least, &task), (Way::Shape, &bounded), (Way::Paper, &task)] {

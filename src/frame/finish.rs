@@ -25,6 +25,10 @@ use std::collections::BTreeSet;
 /// there is no room for the two rods side by side.
 pub const ENGAGEMENT: f64 = 1.0;
 
+/// How far rod ends may move in the mean for the shape of units, in diameters: a frame that
+/// stays near what was lifted lies on the surface, and looks as it was drawn.
+const ROAM: f64 = 1.25;
+
 /// Rounds of closing and cutting rods that taper before giving up. Tapers of some hundredths
 /// take seven to ten.
 const MOST_ROUNDS: usize = 40;
@@ -137,7 +141,8 @@ impl Start<'_> {
         let mut first = None;
         for _ in 0..MOST_ROUNDS {
             let (limits, edge) = (Some(&limits), self.edge);
-            let task = Task { joints, circuits: &circuits, limits, edge };
+            let roam = Some(ROAM * self.diameter);
+            let task = Task { joints, circuits: &circuits, limits, roam, edge };
             let open = |c| open_contact(weave, c);
             let closing = match close(axes, &task, way) {
                 Ok(closing) => closing,

@@ -50,6 +50,9 @@ pub struct Task<'a> {
     pub circuits: &'a [Circuit],
     /// What to keep, if anything.
     pub limits: Option<&'a Limits>,
+    /// How far rod ends may move in the mean for the shape of units, mm; any distance if not
+    /// given.
+    pub roam: Option<f64>,
     /// Mean tile edge, mm: the unit of lengths.
     pub edge: f64,
 }
@@ -119,7 +122,7 @@ pub fn project(
     axes: &mut IdVec<RodId, Axis>,
     joints: &IdVec<ContactId, Joint>,
 ) -> Result<Closing, CloseError> {
-    least(axes, &Task { joints, circuits: &[], limits: None, edge: 1.0 })
+    least(axes, &Task { joints, circuits: &[], limits: None, roam: None, edge: 1.0 })
 }
 
 fn shaped(axes: &mut IdVec<RodId, Axis>, task: &Task) -> Result<Closing, CloseError> {

@@ -63,13 +63,6 @@ impl Weighing {
 /// Longest move of an end in one step, in tile edges.
 const LONGEST_MOVE: f64 = 0.25;
 
-/// How far rod ends may move in the mean, in diameters: a frame that stays near what was
-/// lifted looks as it was drawn.
-const MEAN_MOVE: f64 = 1.4;
-
-/// How much farther than in the first step, where that moves them farther.
-const FARTHER: f64 = 2.0;
-
 /// Times that a step is halved before it is given up.
 const HALVINGS: u8 = 4;
 
@@ -86,7 +79,6 @@ pub fn settle(
     let start = axes.clone();
     let wanted = task.energy(axes);
     let mut now = system.measure(axes, &rows, task);
-    let mut roam = 0.0;
     for step in 0..weighing.steps {
         if let Some(bounds) = &bounds {
             held.extend(bounds.broken(axes, &rows));
@@ -94,10 +86,7 @@ pub fn settle(
         let moves = system.direction(axes, &rows, task, bounds.as_ref(), held)?;
         let Some(tried) = system.shortened(axes, &moves, task, now) else { return Ok(step) };
         system.weighing.loosen(tried.part);
-        let far = mean_move(&start, &tried.axes);
-        if step == 0 {
-            roam = (MEAN_MOVE * rows.first().map_or(0.0, |row| row.diameter)).max(FARTHER * far);
-        } else if far > roam {
+        if task.roam.is_some_and(|roam| mean_move(&start, &tried.axes) > roam) {
             return Ok(step);
         }
         let slow = now - tried.measure < weighing.settled * now;

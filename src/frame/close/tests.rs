@@ -183,7 +183,8 @@ fn rods_that_would_clash_are_kept_apart() {
     assert!(nearest(&free) < 2.5, "{}", nearest(&free));
     for way in [Way::Least, Way::Shape] {
         let mut axes = start.clone();
-        let task = Task { joints: &joints, circuits: &[], limits: Some(&limits), edge: 60.0 };
+        let task =
+            Task { joints: &joints, circuits: &[], limits: Some(&limits), roam: None, edge: 60.0 };
         let done = close(&mut axes, &task, way).unwrap();
         assert!(done.error <= 1e-10 && done.held > 0, "{done:?}");
         assert!(nearest(&axes) >= 3.0 - 1e-9, "{way:?}: {}", nearest(&axes));
@@ -198,7 +199,7 @@ fn units_are_brought_into_shape() {
     axes[RodId::new(1)].a.x += 4.0;
     axes[RodId::new(2)].b.y -= 3.0;
     let circuits = [wanted(&joints, [0.0; 3])];
-    let task = Task { joints: &joints, circuits: &circuits, limits: None, edge: 60.0 };
+    let task = Task { joints: &joints, circuits: &circuits, limits: None, roam: None, edge: 60.0 };
     let total = |way: Way| {
         let done = close(&mut axes.clone(), &task, way).unwrap();
         (done.energy.map(|e| e.total()), done.error)
@@ -207,6 +208,8 @@ fn units_are_brought_into_shape() {
     let ([_, least], _) = total(Way::Least);
     assert!(error <= EXACT);
     assert!(shaped < 0.5 * start && shaped < 0.5 * least, "{start} {shaped} {least}");
+    let near = Task { roam: Some(0.1), ..task };
+    assert_eq!(close(&mut axes.clone(), &near, Way::Shape).unwrap().shaping, 0);
     let ([_, paper], error) = total(Way::Paper);
     assert!(paper < start && error < 0.1, "{paper} {error}");
 }

@@ -117,7 +117,7 @@ fn a_flat_sheet_closes_with_little_move_and_nothing_left_out() {
         overhang: 0.1,
         round: 0.0,
         layering: Layering::Auto,
-        way: Way::default(),
+        way: Way::Least,
         surface_low: -9.0,
         sizes: Default::default(),
     };
