@@ -83,6 +83,7 @@ fn report(design: &Design, model: &Model) -> Report {
         turn: model.fit.turn.to_degrees(),
         surface: report::surface(&model.guide, &model.notes),
         fit: report::fit(&model.fit),
+        relax: model.relaxing.clone(),
         closing: model.formed.closing,
         measures: model.measures.clone(),
         arrangement,

@@ -10,6 +10,7 @@ use crate::frame::footprint::{Footprint, footprint};
 use crate::frame::form::{FormError, FormSettings, Formed, form, median_rise};
 use crate::frame::guide::Guide;
 use crate::frame::measure::{Measures, measure};
+use crate::frame::relax::{Relax, Relaxing, relax};
 use crate::pattern::{Pattern, Shape};
 use crate::shop::cutlist::{CutError, CutPlan, Stock, plan};
 use crate::shop::lengths::sticks;
@@ -31,6 +32,8 @@ pub struct Model {
     pub fit: Fit,
     /// The frame.
     pub formed: Formed,
+    /// How its pattern was relaxed, if it was.
+    pub relaxing: Option<Relaxing>,
     /// The plane that it was laid out on, if there is one.
     pub footprint: Option<Footprint>,
     /// Its figures.
@@ -48,6 +51,8 @@ pub enum Step {
     Chart,
     /// Finding the tile edge.
     Fit,
+    /// Relaxing the pattern.
+    Relax,
     /// Weaving, lifting and closing the frame.
     Form,
     /// Measuring the result.
@@ -127,7 +132,7 @@ fn in_plane(
     let usual = pattern.usual();
     let shape = Shape { turn: design.turn.unwrap_or(usual.turn), slide: design.slide };
     let place = |edge| Placement { origin: design.origin.into(), rotation: design.rotate, edge };
-    let (canvas, fit) = match design.unit {
+    let (mut canvas, mut fit) = match design.unit {
         None => {
             let fit = fit(chart, pattern, &place(design.rod), shape, design.rod)?;
             (PlaneCanvas::new(chart, pattern, place(fit.edge), shape)?, fit)
@@ -138,10 +143,17 @@ fn in_plane(
             (canvas, fit)
         }
     };
+    let mut relaxing = None;
+    if design.relax == Relax::On {
+        begin(Step::Relax);
+        relaxing = relax(&mut canvas);
+        let (units, rise) = median_rise(&canvas).unwrap_or((fit.units, fit.rise));
+        fit = Fit { units, rise, ..fit };
+    }
     let guide = Guide::Chart { mesh: chart.mesh().clone(), distortion: chart.distortion().clone() };
     let mut model = finish(design, &canvas, fit, guide, notes.clone(), begin)?;
-    let tiles = &model.formed.tiles;
-    model.footprint = Some(footprint(chart, pattern, place(model.fit.edge), shape, tiles)?);
+    model.relaxing = relaxing;
+    model.footprint = Some(footprint(&canvas, pattern, &model.formed.tiles));
     Ok(model)
 }
 
@@ -204,7 +216,7 @@ fn finish(
     let measures = measure(&formed, &guide);
     begin(Step::Saw);
     let plan = sawing_plan(design, &formed)?;
-    Ok(Model { guide, notes, fit, formed, footprint: None, measures, plan })
+    Ok(Model { guide, notes, fit, formed, relaxing: None, footprint: None, measures, plan })
 }
 
 /// Where units fail whose size and turn could not be fitted to the rods, says which rods

@@ -12,7 +12,7 @@ pub struct Progress {
 }
 
 /// Steps in the order in which they come.
-const STEPS: u64 = 8;
+const STEPS: u64 = 9;
 
 impl Progress {
     /// Shows itself on a terminal unless `quiet`.
@@ -53,6 +53,7 @@ fn doing(step: Step) -> &'static str {
         Step::Read => "reading the surface",
         Step::Chart => "laying out the tiles",
         Step::Fit => "fitting the units",
+        Step::Relax => "relaxing the pattern",
         Step::Form => "closing the frame",
         Step::Measure => "measuring",
         Step::Saw => "planning the cuts",

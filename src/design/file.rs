@@ -98,6 +98,7 @@ impl Design {
                 file.set("slide", self.slide);
                 file.set("origin", self.origin.map(mm).to_vec());
                 file.set("rotate", rotate);
+                file.set("relax", choice(self.relax));
                 return;
             }
             Tiles::Mesh => file.set("pattern", "mesh"),

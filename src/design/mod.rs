@@ -17,6 +17,7 @@ use crate::chart::Method;
 use crate::frame::close::Way;
 use crate::frame::layer::Layering;
 use crate::frame::sizes::SizeTable;
+use crate::frame::relax::Relax;
 use crate::pattern::{Pattern, PatternError, ShapeError};
 use crate::sheets::{Paper, PaperUnits};
 use crate::surface::component::Component;
@@ -139,6 +140,8 @@ pub struct Design {
     pub origin: [f64; 2],
     /// Turn of the pattern.
     pub rotate: f64,
+    /// Whether the pattern is relaxed.
+    pub relax: Relax,
     /// Rod beyond the last contact.
     pub overhang: f64,
     /// Who goes over.

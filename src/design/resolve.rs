@@ -54,6 +54,7 @@ impl Settings {
             tiles,
             origin: origin(self.origin.as_deref())?,
             rotate: self.rotate.map_or(0.0, Angle::radians),
+            relax: self.relax.unwrap_or_default(),
             overhang: not_negative("overhang", self.overhang)?.unwrap_or(2.0 * rod),
             layer: self.layer.unwrap_or_default(),
             close: self.close.unwrap_or_default(),
@@ -132,17 +133,16 @@ impl Settings {
         let up = self.up.is_some().then_some("up");
         let component = self.component.is_some().then_some("component");
         let chart = self.chart.is_some().then_some("chart");
+        let relax = self.relax.is_some().then_some("relax");
+        let warp = self.warp.is_some().then_some("warp");
         let (idle, why) = match tiles {
-            Tiles::Pattern(_) => (
-                vec![self.warp.is_some().then_some("warp")],
-                "it is for spheres, as in sphere:aI/2",
-            ),
+            Tiles::Pattern(_) => (vec![warp], "it is for spheres, as in sphere:aI/2"),
             Tiles::Mesh => (
-                vec![self.warp.is_some().then_some("warp"), cycle, unit, origin, rotate, chart],
+                vec![warp, cycle, unit, origin, rotate, chart, relax],
                 "the polygons of the mesh are the units; --span sets their size",
             ),
             Tiles::Sphere(_) => (
-                vec![pattern, cycle, unit, origin, up, component, chart],
+                vec![pattern, cycle, unit, origin, up, component, chart, relax],
                 "the notation of the sphere says where its units are; --span sets their size",
             ),
         };

@@ -4,6 +4,7 @@ use super::{DesignError, Part, RodSetting};
 use crate::chart::Method;
 use crate::frame::close::Way;
 use crate::frame::layer::Layering;
+use crate::frame::relax::Relax;
 use crate::sheets::{Paper, PaperUnits};
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
@@ -82,6 +83,11 @@ pub struct Settings {
     #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
     pub rotate: Option<Angle>,
 
+    /// Whether the pattern is moved on the surface so that its units are more even in size
+    /// [default: off]
+    #[arg(long, value_enum)]
+    pub relax: Option<Relax>,
+
     /// Rod left beyond its last contact [default: two rod diameters]
     #[arg(long, value_name = "LENGTH")]
     pub overhang: Option<Length>,
@@ -159,6 +165,7 @@ impl Settings {
             slide: self.slide.or(other.slide),
             origin: self.origin.or(other.origin),
             rotate: self.rotate.or(other.rotate),
+            relax: self.relax.or(other.relax),
             overhang: self.overhang.or(other.overhang),
             layer: self.layer.or(other.layer),
             close: self.close.or(other.close),

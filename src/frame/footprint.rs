@@ -1,12 +1,12 @@
 //! What a frame looks like in the plane, before the plane is wrapped round the surface
 //! (paper, Fig. 9): the tiling, the flattened surface on it, and which tiles became units.
 
-use super::canvas::{Canvas, PlaneCanvas, PlaneError};
+use super::canvas::{Canvas, PlaneCanvas};
 use super::plane_rods::plane_rods;
 use super::weave::weave;
 use crate::chart::{Chart, PlanarChart, Unwrapped};
-use crate::ids::{Id, TileId};
-use crate::pattern::{Pattern, Shape};
+use crate::ids::TileId;
+use crate::pattern::Pattern;
 use crate::surface::bvh::{Aabb, Bvh};
 use crate::tiling::{Placement, Tiling};
 use nalgebra::{Point2, Vector2};
@@ -37,32 +37,32 @@ pub struct Footprint {
 
 /// The tiling is shown so far beyond the flattened surface, in tile edges.
 const AROUND: f64 = 0.6;
-/// Tiles of two patches are one where their middles lie nearer than this, in edges: far
-/// nearer than the middles of two tiles.
+/// Points of two patches are one where they lie nearer than this, in edges: far nearer than
+/// the middles, or the corners, of two tiles.
 const SAME_PLACE: f64 = 0.05;
 
-/// The plane of a frame on this chart, whose units stand on the tiles `kept`.
-///
-/// # Errors
-/// As the canvas that the frame was formed on, which is laid out again.
+/// The plane of a frame on this canvas, whose units stand on the tiles `kept`. The tiles are
+/// drawn as they are moved there.
 pub fn footprint(
-    chart: &PlanarChart,
+    canvas: &PlaneCanvas<PlanarChart>,
     pattern: &Pattern,
-    placement: Placement,
-    shape: Shape,
     kept: &[TileId],
-) -> Result<Footprint, PlaneError> {
+) -> Footprint {
+    let (chart, placement) = (canvas.chart(), *canvas.placement());
     let plane = Unwrapped(chart);
-    // As far as the chart reaches, so that tiles have the numbers that they have there.
-    let canvas = PlaneCanvas::new(&plane, pattern, placement, shape)?;
-    let woven = weave(&canvas, kept)
+    let woven = weave(&canvas.on(&plane), kept)
         .expect("these tiles were woven on the chart, and its plane reaches exactly as far");
     let margin = Vector2::repeat(AROUND * placement.edge);
     let [low, high] = chart.bounds();
     let window = [low - margin, high + margin];
     let tiling = patch(pattern, &placement, window);
     let middles: Vec<Point2<f64>> = kept.iter().map(|&t| canvas.middle(t)).collect();
-    let is_unit = near_any(&tiling, &middles);
+    let unit_at = same_places(&tiling.centers, &middles);
+    let vertex_at = same_places(&tiling.vertices, &canvas.tiling().vertices);
+    let moved = |vertex: usize| {
+        let by = vertex_at[vertex].map_or_else(Vector2::zeros, |v| canvas.corner_moved(v));
+        placement.apply(tiling.vertices[vertex] + by)
+    };
     let shown = Aabb::around(&window);
     let mut footprint = Footprint {
         window,
@@ -74,15 +74,14 @@ pub fn footprint(
         rotation: placement.rotation,
         edge: placement.edge,
     };
-    for (tile, is_unit) in tiling.net.tiles.iter().zip(is_unit) {
-        let corners: Vec<_> =
-            tile.corners.iter().map(|&v| placement.apply(tiling.vertices[v])).collect();
+    for (tile, unit) in tiling.net.tiles.iter().zip(unit_at) {
+        let corners: Vec<_> = tile.corners.iter().map(|&v| moved(v)).collect();
         if Aabb::around(&corners).overlaps(&shown) {
             footprint.tiles.push(corners);
-            footprint.units.push(is_unit);
+            footprint.units.push(unit.is_some());
         }
     }
-    Ok(footprint)
+    footprint
 }
 
 /// The tiles that cover a window of the chart's plane, and some more.
@@ -94,19 +93,23 @@ fn patch(pattern: &Pattern, placement: &Placement, [low, high]: [Point2<f64>; 2]
     pattern.tiling.patch(reach.lo - widest, reach.hi + widest)
 }
 
-/// Of each tile, whether its middle is one of those given.
-fn near_any(tiling: &Tiling, middles: &[Point2<f64>]) -> Vec<bool> {
-    let boxes: Vec<Aabb<2>> = tiling.centers.iter().map(|&c| Aabb::around(&[c])).collect();
+/// Of each point, which of others lies at the same place.
+fn same_places(points: &[Point2<f64>], others: &[Point2<f64>]) -> Vec<Option<usize>> {
+    let boxes: Vec<Aabb<2>> = points.iter().map(|&p| Aabb::around(&[p])).collect();
     let tree = Bvh::new(&boxes);
-    let mut near = vec![false; boxes.len()];
-    for &middle in middles {
-        let here = Aabb::around(&[middle]).grown(SAME_PLACE);
+    let mut found = vec![None; points.len()];
+    for (other, &place) in others.iter().enumerate() {
+        let here = Aabb::around(&[place]).grown(SAME_PLACE);
         tree.visit(
             |b| b.overlaps(&here),
-            |tile| near[tile] = near[tile] || here.contains(&tiling.centers[TileId::new(tile)]),
+            |point| {
+                if here.contains(&points[point]) {
+                    found[point] = Some(other);
+                }
+            },
         );
     }
-    near
+    found
 }
 
 #[cfg(test)]
@@ -126,7 +129,7 @@ mod tests {
         PlanarChart::new(mesh, &topology, Method::Abf).unwrap()
     }
 
-    fn formed(chart: &PlanarChart, pattern: &Pattern, placement: Placement) -> Formed {
+    fn formed(canvas: &PlaneCanvas<PlanarChart>) -> Formed {
         let settings = FormSettings {
             diameter: 3.0,
             overhang: 6.0,
@@ -136,8 +139,7 @@ mod tests {
             surface_low: 0.0,
             sizes: Default::default(),
         };
-        form(&PlaneCanvas::new(chart, pattern, placement, pattern.usual()).unwrap(), &settings)
-            .unwrap()
+        form(canvas, &settings).unwrap()
     }
 
     fn middle(points: &[Point2<f64>]) -> Point2<f64> {
@@ -157,8 +159,9 @@ mod tests {
             let start = Placement { origin: [17.0, -8.0].into(), rotation: 0.4, edge: 1.0 };
             let edge = fit(&chart, pattern, &start, pattern.usual(), 3.0).unwrap().edge;
             let placement = Placement { edge, ..start };
-            let Formed { frame, tiles, .. } = formed(&chart, pattern, placement);
-            let print = footprint(&chart, pattern, placement, pattern.usual(), &tiles).unwrap();
+            let canvas = PlaneCanvas::new(&chart, pattern, placement, pattern.usual()).unwrap();
+            let Formed { frame, tiles, .. } = formed(&canvas);
+            let print = footprint(&canvas, pattern, &tiles);
             let marked = print.tiles.iter().zip(&print.units).filter(|(_, unit)| **unit);
             let marked: Vec<_> =
                 marked.map(|(t, _)| chart.lift(middle(t)).unwrap().position).collect();
@@ -188,7 +191,7 @@ mod tests {
             let shape = pattern.usual();
             let canvas = PlaneCanvas::new(&chart, pattern, placement, shape).unwrap();
             let kept = crop(&canvas, &held(&canvas));
-            let print = footprint(&chart, pattern, placement, shape, &kept).unwrap();
+            let print = footprint(&canvas, pattern, &kept);
             assert_eq!(print.units.iter().filter(|unit| **unit).count(), kept.len());
             let [low, high] = print.window;
             assert!(print.outline.iter().flatten().all(|p| {

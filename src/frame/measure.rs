@@ -134,7 +134,8 @@ fn histograms(
     }
 }
 
-fn spread(values: impl Iterator<Item = f64>) -> Spread {
+/// The spread of some figures.
+pub(crate) fn spread(values: impl Iterator<Item = f64>) -> Spread {
     let values: Vec<f64> = values.collect();
     let n = values.len().max(1) as f64;
     let mut sizes: Vec<f64> = values.iter().map(|x| x.abs()).collect();

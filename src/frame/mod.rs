@@ -27,6 +27,7 @@ pub mod measure;
 pub mod plane_rods;
 pub mod regularity;
 pub mod sizes;
+pub mod relax;
 pub mod stand;
 pub mod trim;
 pub mod weave;

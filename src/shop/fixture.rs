@@ -136,7 +136,7 @@ pub(crate) fn laid_on_sample(
     let placement = Placement { edge, ..start };
     let canvas = PlaneCanvas::new(&chart, pattern, placement, shape).unwrap();
     let formed = form(&canvas, &settings).unwrap();
-    let plane = footprint(&chart, pattern, placement, shape, &formed.tiles).unwrap();
+    let plane = footprint(&canvas, pattern, &formed.tiles);
     let guide = Guide::Chart { mesh: chart.mesh().clone(), distortion: chart.distortion().clone() };
     let measures = measure(&formed, &guide);
     (formed.frame, plane, measures)

@@ -8,6 +8,7 @@ use crate::frame::close::Closing;
 use crate::frame::fit::{Fit, FitBy};
 use crate::frame::guide::Guide;
 use crate::frame::measure::Measures;
+use crate::frame::relax::Relaxing;
 use crate::shop::cutlist::CutPlan;
 use serde::Serialize;
 
@@ -20,6 +21,9 @@ pub struct Report {
     pub turn: f64,
     pub surface: Surface,
     pub fit: Fitted,
+    /// How the pattern was relaxed, if it was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relax: Option<Relaxing>,
     pub closing: Closing,
     pub measures: Measures,
     pub arrangement: UnitCounts,

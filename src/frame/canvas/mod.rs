@@ -6,12 +6,14 @@
 //! mesh ([`MeshCanvas`]).
 
 mod facets;
+mod field;
 #[cfg(test)]
 pub mod fixture;
 mod plane;
 mod sphere;
 
 pub use facets::{MeshCanvas, MeshTiles};
+pub use field::Field;
 pub use plane::{MOST_UNITS, PlaneCanvas, PlaneError, TooManyUnits, most_units};
 pub use sphere::{SphereCanvas, SphereTiles};
 

@@ -1,6 +1,6 @@
 //! A pattern in the plane of a chart.
 
-use super::{Canvas, Sizing};
+use super::{Canvas, Field, Sizing};
 use crate::chart::{Chart, SurfacePoint};
 use crate::ids::{TileEdgeId, TileId};
 use crate::pattern::{
@@ -34,6 +34,8 @@ pub struct PlaneCanvas<'a, C> {
     alone: Vec<Join>,
     placement: Placement,
     shape: Shape,
+    /// How the pattern is moved; only the tiles that take part are held.
+    field: Option<Field>,
 }
 
 /// More tiles than can be laid out: about so many.
@@ -87,7 +89,7 @@ impl<'a, C: Chart> PlaneCanvas<'a, C> {
             .map(|kind| joins(kind).map_or(Join::Shared, |rule| rule.join))
             .collect();
         let kinds = pattern.kinds.clone();
-        Ok(Self { chart, tiling, layout, kinds, alone, placement, shape })
+        Ok(Self { chart, tiling, layout, kinds, alone, placement, shape, field: None })
     }
 
     /// The unit on a tile.
@@ -126,11 +128,33 @@ impl<'a, C: Chart> PlaneCanvas<'a, C> {
         self.kinds[place.kind].inner_rods().map(|stick| stick.map(laid)).collect()
     }
 
+    /// Whether every point of a tile that the weaving will ask for is in the chart, and its
+    /// rods meet no hole, where `moved` says how far its points are moved.
+    fn lies_in(&self, tile: TileId, moved: impl Fn(Point2<f64>) -> Vector2<f64>) -> bool {
+        let center = self.tiling.centers[tile];
+        let figure = self.figure(tile);
+        let Ok(meetings) = figure.meetings(&[]) else { return false };
+        let contacts: Vec<Point2<f64>> = meetings.all.iter().map(|m| m.at).collect();
+        let grown = |p: Point2<f64>| p + (p - center) * MARGIN;
+        let corners = self.tiling.net.tiles[tile].corners.iter().map(|&v| self.tiling.vertices[v]);
+        let mut points = std::iter::once(center)
+            .chain(corners.map(grown))
+            .chain(figure.outer.iter().map(|l| grown(l.at)))
+            .chain(contacts.iter().copied());
+        points.all(|p| self.lift(p + moved(p)).is_some())
+            && !self.crosses_hole(&figure, &meetings, moved)
+    }
+
     /// Whether a rod of a tile, from its edge to its last contact, meets a hole.
-    fn crosses_hole(&self, figure: &Figure, meetings: &Meetings) -> bool {
+    fn crosses_hole(
+        &self,
+        figure: &Figure,
+        meetings: &Meetings,
+        moved: impl Fn(Point2<f64>) -> Vector2<f64>,
+    ) -> bool {
         let half_width = HOLE_MARGIN * self.placement.edge;
         let crosses = |from: Point2<f64>, to: Point2<f64>| {
-            let [a, b] = [from, to].map(|p| self.placement.apply(p));
+            let [a, b] = [from, to].map(|p| self.placement.apply(p + moved(p)));
             self.chart.crosses_hole(a, b, half_width)
         };
         let contact = |m: &Meeting| match m.ending {
@@ -142,6 +166,70 @@ impl<'a, C: Chart> PlaneCanvas<'a, C> {
 
     fn lift(&self, p: Point2<f64>) -> Option<SurfacePoint> {
         self.chart.lift(self.placement.apply(p))
+    }
+
+    /// How far a point of a tile's picture is moved.
+    fn moved(&self, tile: TileId, p: Point2<f64>) -> Vector2<f64> {
+        self.field.as_ref().map_or_else(Vector2::zeros, |f| f.at(&self.tiling, tile, p))
+    }
+
+    /// Whether a tile lies on the surface as the pattern is moved now.
+    pub fn reaches(&self, tile: TileId) -> bool {
+        self.lies_in(tile, |p| self.moved(tile, p))
+    }
+
+    /// Whether a tile would, if all its points were moved alike.
+    pub fn fits(&self, tile: TileId, by: Vector2<f64>) -> bool {
+        self.lies_in(tile, |_| by)
+    }
+
+    /// Whether the pattern is moved without folds or tears at a tile.
+    pub fn is_sound(&self, tile: TileId) -> bool {
+        self.field.as_ref().is_none_or(|f| f.is_sound(&self.tiling, tile))
+    }
+
+    /// The place of a tile's middle if it were moved so far.
+    pub fn place_moved(&self, tile: TileId, by: Vector2<f64>) -> Option<SurfacePoint> {
+        self.lift(self.tiling.centers[tile] + by)
+    }
+
+    /// Moves the pattern, or with `None` lays it as it is.
+    pub fn set_field(&mut self, field: Option<Field>) {
+        self.field = field;
+    }
+
+    /// The same pattern on another chart of the same plane.
+    pub fn on<'b, D>(&self, chart: &'b D) -> PlaneCanvas<'b, D> {
+        PlaneCanvas {
+            chart,
+            tiling: self.tiling.clone(),
+            layout: self.layout.clone(),
+            kinds: self.kinds.clone(),
+            alone: self.alone.clone(),
+            placement: self.placement,
+            shape: self.shape,
+            field: self.field.clone(),
+        }
+    }
+
+    /// The chart.
+    pub fn chart(&self) -> &'a C {
+        self.chart
+    }
+
+    /// The tiles, as they are before they are moved.
+    pub fn tiling(&self) -> &Tiling {
+        &self.tiling
+    }
+
+    /// Where the tiling lies.
+    pub fn placement(&self) -> &Placement {
+        &self.placement
+    }
+
+    /// How far a vertex of the tiling is moved, in tile edges.
+    pub fn corner_moved(&self, vertex: usize) -> Vector2<f64> {
+        self.field.as_ref().map_or_else(Vector2::zeros, |f| f.corner(vertex))
     }
 }
 
@@ -158,19 +246,11 @@ impl<C: Chart> Canvas for PlaneCanvas<'_, C> {
         &self.tiling.net
     }
 
-    /// Whether every point of the tile that the weaving will ask for is in the chart.
     fn holds(&self, tile: TileId) -> bool {
-        let center = self.tiling.centers[tile];
-        let figure = self.figure(tile);
-        let Ok(meetings) = figure.meetings(&[]) else { return false };
-        let contacts: Vec<Point2<f64>> = meetings.all.iter().map(|m| m.at).collect();
-        let grown = |p: Point2<f64>| p + (p - center) * MARGIN;
-        let corners = self.tiling.net.tiles[tile].corners.iter().map(|&v| self.tiling.vertices[v]);
-        let mut points = std::iter::once(center)
-            .chain(corners.map(grown))
-            .chain(figure.outer.iter().map(|l| grown(l.at)))
-            .chain(contacts.iter().copied());
-        points.all(|p| self.lift(p).is_some()) && !self.crosses_hole(&figure, &meetings)
+        match &self.field {
+            Some(field) => field.moves(tile),
+            None => self.reaches(tile),
+        }
     }
 
     fn rank(&self, tile: TileId) -> [f64; 2] {
@@ -209,8 +289,8 @@ impl<C: Chart> Canvas for PlaneCanvas<'_, C> {
         Some(Guest { side, line: self.line_out(home, edge), reach })
     }
 
-    fn place(&self, _tile: TileId, p: Point2<f64>) -> Option<SurfacePoint> {
-        self.lift(p)
+    fn place(&self, tile: TileId, p: Point2<f64>) -> Option<SurfacePoint> {
+        self.lift(p + self.moved(tile, p))
     }
 
     fn edge(&self) -> f64 {
