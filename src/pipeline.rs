@@ -132,7 +132,7 @@ fn in_plane(
     let usual = pattern.usual();
     let shape = Shape { turn: design.turn.unwrap_or(usual.turn), slide: design.slide };
     let place = |edge| Placement { origin: design.origin.into(), rotation: design.rotate, edge };
-    let (mut canvas, mut fit) = match design.unit {
+    let (canvas, fit) = match design.unit {
         None => {
             let fit = fit(chart, pattern, &place(design.rod), shape, design.rod)?;
             (PlaneCanvas::new(chart, pattern, place(fit.edge), shape)?, fit)
@@ -143,18 +143,47 @@ fn in_plane(
             (canvas, fit)
         }
     };
-    let mut relaxing = None;
-    if design.relax == Relax::On {
-        begin(Step::Relax);
-        relaxing = relax(&mut canvas);
-        let (units, rise) = median_rise(&canvas).unwrap_or((fit.units, fit.rise));
-        fit = Fit { units, rise, ..fit };
+    let mesh = chart.mesh();
+    let form_on = |canvas: &PlaneCanvas<_>, fit, begin: &mut dyn FnMut(Step)| {
+        let guide = Guide::Chart { mesh: mesh.clone(), distortion: chart.distortion().clone() };
+        let mut model = finish(design, canvas, fit, guide, notes.clone(), begin)?;
+        model.footprint = Some(footprint(canvas, pattern, &model.formed.tiles));
+        Ok(model)
+    };
+    match design.relax {
+        Relax::Off => form_on(&canvas, fit, begin),
+        Relax::On => relaxed(canvas, fit, form_on, begin),
     }
-    let guide = Guide::Chart { mesh: chart.mesh().clone(), distortion: chart.distortion().clone() };
-    let mut model = finish(design, &canvas, fit, guide, notes.clone(), begin)?;
-    model.relaxing = relaxing;
-    model.footprint = Some(footprint(&canvas, pattern, &model.formed.tiles));
-    Ok(model)
+}
+
+/// Relaxes a pattern before the frame is formed. Where that has more units left out than
+/// without, the pattern is taken as it was.
+fn relaxed<'a>(
+    plain: PlaneCanvas<'a, PlanarChart>,
+    plain_fit: Fit,
+    form_on: impl Fn(
+        &PlaneCanvas<'a, PlanarChart>,
+        Fit,
+        &mut dyn FnMut(Step),
+    ) -> Result<Model, BuildError>,
+    begin: &mut dyn FnMut(Step),
+) -> Result<Model, BuildError> {
+    begin(Step::Relax);
+    let mut canvas = plain.clone();
+    let mut relaxing = relax(&mut canvas);
+    let (units, rise) = median_rise(&canvas).unwrap_or((plain_fit.units, plain_fit.rise));
+    let mut model = form_on(&canvas, Fit { units, rise, ..plain_fit }, begin);
+    if model.as_ref().map_or(true, |model| !model.formed.frame.dropped.is_empty()) {
+        let units = |of: &Result<Model, BuildError>| {
+            of.as_ref().map_or(0, |model| model.formed.frame.units.len())
+        };
+        let without = form_on(&plain, plain_fit, &mut |_| {});
+        if model.is_err() || units(&without) > units(&model) {
+            model = without;
+            relaxing = relaxing.map(|relaxing| Relaxing { used: false, ..relaxing });
+        }
+    }
+    model.map(|model| Model { relaxing, ..model })
 }
 
 /// The polygons of the surface as they are.

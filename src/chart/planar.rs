@@ -5,8 +5,8 @@ use super::distortion::measure;
 use super::holes::Holes;
 use super::rim::first_crossing;
 use super::{Chart, ChartError, Conformal, Distortion, Method, Sheet, SurfacePoint, conformal};
-use crate::ids::{Id, IdVec, VertexId};
-use crate::surface::locate::PlanarLocator;
+use crate::ids::{FaceId, Id, IdVec, VertexId};
+use crate::surface::locate::{PlanarLocator, blend};
 use crate::surface::topology::Topology;
 use crate::surface::{Mesh, Point3, Vector3};
 use nalgebra::{Point2, Rotation2, Vector2};
@@ -64,6 +64,17 @@ impl PlanarChart {
     pub fn outline(&self) -> Vec<Vec<Point2<f64>>> {
         let place = |border: &Vec<VertexId>| border.iter().map(|&v| self.flat[v]).collect();
         self.borders.iter().map(place).collect()
+    }
+
+    /// The point of the plane in the chart that is nearest to a finite one, mm.
+    pub fn inside(&self, p: Point2<f64>) -> Point2<f64> {
+        // There is no mesh without triangles.
+        self.locator.closest(p).map_or(p, |at| self.plane_point(at.face, at.barycentric))
+    }
+
+    /// The point of the plane that belongs to a place of the surface, mm.
+    pub fn plane_point(&self, face: FaceId, barycentric: [f64; 3]) -> Point2<f64> {
+        blend(&self.mesh.triangles[face].map(|v| self.flat[v]), barycentric)
     }
 
     /// How much the map distorts.
@@ -178,8 +189,14 @@ mod tests {
         let d = chart.distortion();
         assert!(d.mean_angle < 0.01, "{d:?}");
         for v in chart.mesh().points.ids() {
-            let back = chart.lift(chart.flat()[v.index()]).unwrap();
+            let flat = chart.flat()[v.index()];
+            let back = chart.lift(flat).unwrap();
             assert!((back.position - chart.mesh().points[v]).norm() < 1e-6, "vertex {v}");
+            assert!((chart.inside(flat) - flat).norm() < 1e-9);
+            // From beyond the rim the way goes back to it.
+            let beyond = chart.inside(flat * 100.0);
+            assert!((beyond - flat * 100.0).norm() <= 99.0 * flat.coords.norm() + 1e-9);
+            assert!(chart.lift(beyond).is_some());
         }
     }
 }

@@ -19,10 +19,10 @@ use super::canvas::{Canvas, Field, PlaneCanvas};
 use super::crop::{crop, held};
 use super::measure::{Histogram, Spread, histogram, spread};
 use super::weave::weave;
-use crate::chart::PlanarChart;
-use crate::ids::{Id, IdVec, TileId};
+use crate::chart::{Chart, PlanarChart};
+use crate::ids::{IdVec, TileId};
 use crate::surface::Point3;
-use crate::surface::locate::{Locator, blend};
+use crate::surface::locate::Locator;
 use crate::tiling::Tiling;
 use descend::descend;
 use energy::Energy;
@@ -45,6 +45,8 @@ pub enum Relax {
 /// What relaxing did (paper, Fig. 12).
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Relaxing {
+    /// Whether the frame is made with it: not where it would have more units left out.
+    pub used: bool,
     /// Gauss-Newton steps.
     pub steps: usize,
     /// Units that were held back, so that none leaves the surface.
@@ -81,19 +83,26 @@ const ANGLE_BIN: f64 = 1.0;
 /// Width of the bins of lengths, as part of a length.
 const LENGTH_BIN: f64 = 0.05;
 
-/// Parts of its move that a unit is given that does not fit where the rest would have it:
-/// the first with which it does.
-const SHARES: [f64; 4] = [0.75, 0.5, 0.25, 0.0];
+/// Units beyond the border are pushed back by this many times the way: their corners follow
+/// but in part, as those of neighbours pull at them. Larger, and they come to lie farther
+/// inside than they need; smaller, and it takes more rounds.
+const PUSH: f64 = 1.5;
 
-/// Moves below this, in tile edges, are made none where they are held back; smaller, and
-/// halving them goes on for nothing.
+/// The least push, in tile edges: smaller ones go on for nothing.
+const LEAST_PUSH: f64 = 0.01;
+
+/// Times that units are pushed. What does not fit then has its move halved.
+const PUSHES: usize = 20;
+
+/// Moves that are halved are made none below this, in tile edges; smaller, and halving
+/// goes on for nothing.
 const NO_MOVE: f64 = 0.02;
 
-/// Times that the rest is relaxed again round units that were held back. After that, what
-/// does not fit is held back without: borders are then settled but for single units.
+/// Times that the rest is relaxed again round units that were held back. After that,
+/// what does not fit is held back without: borders are then settled but for single units.
 const ROUNDS: usize = 6;
 
-/// Times that units are held back. Moves are halved each time, so all fit long before.
+/// Times that units are held back. All fit long before, once their moves are halved.
 const MOST_ROUNDS: usize = 60;
 
 /// Moves the pattern of a canvas so that its units are even, and says what that did. Where
@@ -122,6 +131,7 @@ pub fn relax(canvas: &mut PlaneCanvas<PlanarChart>) -> Option<Relaxing> {
     let angles = centers.map(|c| graph.angle_errors(c));
     let lengths = centers.map(|c| graph.length_errors(c, unit));
     Some(Relaxing {
+        used: true,
         steps,
         held_back,
         energy: centers.map(|c| energy.value(c)),
@@ -170,8 +180,10 @@ fn lay(
         if faulty.is_empty() {
             return Some((steps, fixed.iter().filter(|f| **f).count()));
         }
-        for i in hold_back(canvas, tiles, &faulty, &mut moves, &mut fixed) {
-            centers[i] = canvas.place_moved(tiles[i], moves[i])?.position;
+        for i in hold_back(canvas, tiles, &faulty, &mut moves, round < PUSHES) {
+            fixed[i] = true;
+            let p = canvas.placement().apply(canvas.middle(tiles[i]) + moves[i]);
+            centers[i] = canvas.chart().lift(canvas.chart().inside(p))?.position;
         }
     }
     None
@@ -186,9 +198,8 @@ fn move_to(
     center: Point3,
 ) -> Vector2<f64> {
     let at = locator.closest(center);
-    let chart = canvas.chart();
-    let flat = chart.mesh().triangles[at.face].map(|v| chart.flat()[v.index()]);
-    canvas.placement().invert(blend(&flat, at.barycentric)) - canvas.middle(tile)
+    let p = canvas.chart().plane_point(at.face, at.barycentric);
+    canvas.placement().invert(p) - canvas.middle(tile)
 }
 
 fn field(tiling: &Tiling, tiles: &[TileId], moves: &[Vector2<f64>]) -> Field {
@@ -211,31 +222,29 @@ fn faulty(canvas: &PlaneCanvas<PlanarChart>, tiles: &[TileId]) -> Vec<usize> {
     }
 }
 
-/// Gives tiles that do not fit a part of their moves for good. Where that was done before,
-/// they and those round them get half of it. Gives all that were changed.
+/// Pushes tiles that do not fit back into the chart. Where that is no help, they and those
+/// round them get half their moves. Gives all that were changed.
 fn hold_back(
     canvas: &PlaneCanvas<PlanarChart>,
     tiles: &[TileId],
     faulty: &[usize],
     moves: &mut [Vector2<f64>],
-    fixed: &mut [bool],
+    push: bool,
 ) -> BTreeSet<usize> {
     let corners = |i: usize| &canvas.net().tiles[tiles[i]].corners;
-    let stuck: BTreeSet<usize> =
-        faulty.iter().filter(|&&i| fixed[i]).flat_map(|&i| corners(i)).copied().collect();
-    let beside = (0..tiles.len()).filter(|&i| corners(i).iter().any(|v| stuck.contains(v)));
-    let halved: BTreeSet<usize> = beside.collect();
-    let mut changed = halved.clone();
-    changed.extend(faulty);
-    for &i in &changed {
-        if halved.contains(&i) {
-            moves[i] *= if moves[i].norm() < NO_MOVE { 0.0 } else { 0.5 };
+    let mut stuck: BTreeSet<usize> = BTreeSet::new();
+    for &i in faulty {
+        let way = canvas.overhang(tiles[i]);
+        if push && way.norm() > 0.0 {
+            moves[i] += way * PUSH.max(LEAST_PUSH / way.norm());
+        } else {
+            stuck.extend(corners(i));
         }
-        let fits = |share: &&f64| canvas.fits(tiles[i], moves[i] * **share);
-        let whole = [1.0].iter().filter(|_| halved.contains(&i));
-        let share = whole.chain(&SHARES).find(fits);
-        moves[i] *= share.copied().unwrap_or(0.0);
-        fixed[i] = true;
+    }
+    let mut changed: BTreeSet<usize> = faulty.iter().copied().collect();
+    for i in (0..tiles.len()).filter(|&i| corners(i).iter().any(|v| stuck.contains(v))) {
+        moves[i] *= if moves[i].norm() < NO_MOVE { 0.0 } else { 0.5 };
+        changed.insert(i);
     }
     changed
 }

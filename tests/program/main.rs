@@ -7,6 +7,7 @@ mod footprint;
 mod inspecting;
 mod patterns;
 mod refusals;
+mod relaxing;
 mod run;
 mod samples;
 mod sizes;

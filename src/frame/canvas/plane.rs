@@ -1,7 +1,7 @@
 //! A pattern in the plane of a chart.
 
 use super::{Canvas, Field, Sizing};
-use crate::chart::{Chart, SurfacePoint};
+use crate::chart::{Chart, PlanarChart, SurfacePoint};
 use crate::ids::{TileEdgeId, TileId};
 use crate::pattern::{
     Figure, Guest, Join, Layout, LayoutError, Line, Meeting, Meetings, Member, Pattern, Shape,
@@ -128,33 +128,36 @@ impl<'a, C: Chart> PlaneCanvas<'a, C> {
         self.kinds[place.kind].inner_rods().map(|stick| stick.map(laid)).collect()
     }
 
-    /// Whether every point of a tile that the weaving will ask for is in the chart, and its
-    /// rods meet no hole, where `moved` says how far its points are moved.
-    fn lies_in(&self, tile: TileId, moved: impl Fn(Point2<f64>) -> Vector2<f64>) -> bool {
+    /// The rods of a tile's unit, and all points that the weaving will ask for; none where
+    /// they form no unit.
+    fn needs(&self, tile: TileId) -> Option<(Figure, Meetings, Vec<Point2<f64>>)> {
         let center = self.tiling.centers[tile];
         let figure = self.figure(tile);
-        let Ok(meetings) = figure.meetings(&[]) else { return false };
-        let contacts: Vec<Point2<f64>> = meetings.all.iter().map(|m| m.at).collect();
+        let meetings = figure.meetings(&[]).ok()?;
         let grown = |p: Point2<f64>| p + (p - center) * MARGIN;
         let corners = self.tiling.net.tiles[tile].corners.iter().map(|&v| self.tiling.vertices[v]);
-        let mut points = std::iter::once(center)
+        let points = std::iter::once(center)
             .chain(corners.map(grown))
             .chain(figure.outer.iter().map(|l| grown(l.at)))
-            .chain(contacts.iter().copied());
-        points.all(|p| self.lift(p + moved(p)).is_some())
-            && !self.crosses_hole(&figure, &meetings, moved)
+            .chain(meetings.all.iter().map(|m| m.at))
+            .collect();
+        Some((figure, meetings, points))
+    }
+
+    /// Whether a tile lies on the surface as the pattern is moved: all that the weaving will
+    /// ask for is in the chart, and no rod meets a hole.
+    pub fn reaches(&self, tile: TileId) -> bool {
+        self.needs(tile).is_some_and(|(figure, meetings, points)| {
+            points.iter().all(|&p| self.place(tile, p).is_some())
+                && !self.crosses_hole(tile, &figure, &meetings)
+        })
     }
 
     /// Whether a rod of a tile, from its edge to its last contact, meets a hole.
-    fn crosses_hole(
-        &self,
-        figure: &Figure,
-        meetings: &Meetings,
-        moved: impl Fn(Point2<f64>) -> Vector2<f64>,
-    ) -> bool {
+    fn crosses_hole(&self, tile: TileId, figure: &Figure, meetings: &Meetings) -> bool {
         let half_width = HOLE_MARGIN * self.placement.edge;
         let crosses = |from: Point2<f64>, to: Point2<f64>| {
-            let [a, b] = [from, to].map(|p| self.placement.apply(p + moved(p)));
+            let [a, b] = [from, to].map(|p| self.in_chart(tile, p));
             self.chart.crosses_hole(a, b, half_width)
         };
         let contact = |m: &Meeting| match m.ending {
@@ -164,33 +167,16 @@ impl<'a, C: Chart> PlaneCanvas<'a, C> {
         meetings.all.iter().any(contact) || figure.inner.iter().any(|&[a, b]| crosses(a, b))
     }
 
-    fn lift(&self, p: Point2<f64>) -> Option<SurfacePoint> {
-        self.chart.lift(self.placement.apply(p))
-    }
-
-    /// How far a point of a tile's picture is moved.
-    fn moved(&self, tile: TileId, p: Point2<f64>) -> Vector2<f64> {
-        self.field.as_ref().map_or_else(Vector2::zeros, |f| f.at(&self.tiling, tile, p))
-    }
-
-    /// Whether a tile lies on the surface as the pattern is moved now.
-    pub fn reaches(&self, tile: TileId) -> bool {
-        self.lies_in(tile, |p| self.moved(tile, p))
-    }
-
-    /// Whether a tile would, if all its points were moved alike.
-    pub fn fits(&self, tile: TileId, by: Vector2<f64>) -> bool {
-        self.lies_in(tile, |_| by)
+    /// The point of the chart that belongs to a point of a tile's picture, as the pattern is
+    /// moved, mm.
+    fn in_chart(&self, tile: TileId, p: Point2<f64>) -> Point2<f64> {
+        let moved = self.field.as_ref().map(|field| field.at(&self.tiling, tile, p));
+        self.placement.apply(p + moved.unwrap_or_default())
     }
 
     /// Whether the pattern is moved without folds or tears at a tile.
     pub fn is_sound(&self, tile: TileId) -> bool {
         self.field.as_ref().is_none_or(|f| f.is_sound(&self.tiling, tile))
-    }
-
-    /// The place of a tile's middle if it were moved so far.
-    pub fn place_moved(&self, tile: TileId, by: Vector2<f64>) -> Option<SurfacePoint> {
-        self.lift(self.tiling.centers[tile] + by)
     }
 
     /// Moves the pattern, or with `None` lays it as it is.
@@ -230,6 +216,20 @@ impl<'a, C: Chart> PlaneCanvas<'a, C> {
     /// How far a vertex of the tiling is moved, in tile edges.
     pub fn corner_moved(&self, vertex: usize) -> Vector2<f64> {
         self.field.as_ref().map_or_else(Vector2::zeros, |f| f.corner(vertex))
+    }
+}
+
+impl PlaneCanvas<'_, PlanarChart> {
+    /// The longest way, in tile edges, from a point of a tile outside the chart to the
+    /// chart; nothing where all are inside.
+    pub fn overhang(&self, tile: TileId) -> Vector2<f64> {
+        let Some((_, _, points)) = self.needs(tile) else { return Vector2::zeros() };
+        let way = |&p: &Point2<f64>| {
+            let out = self.in_chart(tile, p);
+            self.placement.invert(self.chart.inside(out)) - self.placement.invert(out)
+        };
+        let longer = |a: Vector2<f64>, b: Vector2<f64>| if b.norm() > a.norm() { b } else { a };
+        points.iter().map(way).fold(Vector2::zeros(), longer)
     }
 }
 
@@ -290,7 +290,7 @@ impl<C: Chart> Canvas for PlaneCanvas<'_, C> {
     }
 
     fn place(&self, tile: TileId, p: Point2<f64>) -> Option<SurfacePoint> {
-        self.lift(p + self.moved(tile, p))
+        self.chart.lift(self.in_chart(tile, p))
     }
 
     fn edge(&self) -> f64 {

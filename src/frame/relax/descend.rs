@@ -56,7 +56,8 @@ pub fn descend(
                 return Ok(step);
             }
             let part = (LONGEST / longest).min(1.0) * energy.mean;
-            let tried: Vec<Point3> = centers.iter().zip(&moves).map(|(p, m)| p + m * part).collect();
+            let tried: Vec<Point3> =
+                centers.iter().zip(&moves).map(|(p, m)| p + m * part).collect();
             let value = energy.value(&tried);
             if value < now {
                 taken = Some((tried, value));

@@ -128,8 +128,7 @@ mod tests {
             assert!(lengths.iter().chain(&angles).all(|e| e.abs() < 1e-5), "{name}");
             // Round an inner unit the angles make a whole turn; round no unit more.
             for at in 0..tiles.len() {
-                let round: f64 =
-                    graph.corners.iter().filter(|c| c.at == at).map(|c| c.angle).sum();
+                let round: f64 = graph.corners.iter().filter(|c| c.at == at).map(|c| c.angle).sum();
                 assert!(round < TAU + 1e-9);
             }
         }
