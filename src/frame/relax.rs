@@ -7,9 +7,10 @@
 //! both are kept as well as they can be. Their places are brought back to the plane, and
 //! rods are laid out anew through the moves.
 //!
-//! What the paper leaves open: moves may take units over the border of the chart, or fold
-//! the plane. Units where they do are held back, and the rest is relaxed again round them.
-//! So no unit is lost that has room unrelaxed.
+//! What the paper leaves open: units at the border of the pattern, left free, would move off
+//! the border of the surface, inside or out. Here they move along it only. Where moves still
+//! take a unit out of the chart, or would fold the plane, it is held back, and the rest is
+//! relaxed again round it. So no unit is lost that has room unrelaxed.
 
 mod descend;
 mod energy;
@@ -21,15 +22,15 @@ use super::measure::{Histogram, Spread, histogram, spread};
 use super::weave::weave;
 use crate::chart::{Chart, PlanarChart};
 use crate::ids::{IdVec, TileId};
-use crate::surface::Point3;
 use crate::surface::locate::Locator;
+use crate::surface::{Point3, Vector3};
 use crate::tiling::Tiling;
-use descend::descend;
+use descend::{Hold, descend};
 use energy::Energy;
 use graph::Graph;
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Whether a pattern is relaxed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, clap::ValueEnum)]
@@ -49,7 +50,7 @@ pub struct Relaxing {
     pub used: bool,
     /// Gauss-Newton steps.
     pub steps: usize,
-    /// Units that were held back, so that none leaves the surface.
+    /// Units that were held back so as not to leave the surface.
     pub held_back: usize,
     /// The sum that was made small.
     pub energy: Change<f64>,
@@ -83,16 +84,13 @@ const ANGLE_BIN: f64 = 1.0;
 /// Width of the bins of lengths, as part of a length.
 const LENGTH_BIN: f64 = 0.05;
 
-/// Units beyond the border are pushed back by this many times the way: their corners follow
-/// but in part, as those of neighbours pull at them. Larger, and they come to lie farther
-/// inside than they need; smaller, and it takes more rounds.
-const PUSH: f64 = 1.5;
-
-/// The least push, in tile edges: smaller ones go on for nothing.
+/// The least push, in tile edges: units beyond the border are pushed back by the way that they
+/// are beyond it, or by this. Smaller, and the last ones go on for nothing; larger, and
+/// they come to lie farther inside than they need.
 const LEAST_PUSH: f64 = 0.01;
 
 /// Times that units are pushed. What does not fit then has its move halved.
-const PUSHES: usize = 20;
+const PUSHES: usize = 30;
 
 /// Moves that are halved are made none below this, in tile edges; smaller, and halving
 /// goes on for nothing.
@@ -100,10 +98,10 @@ const NO_MOVE: f64 = 0.02;
 
 /// Times that the rest is relaxed again round units that were held back. After that,
 /// what does not fit is held back without: borders are then settled but for single units.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 10;
 
 /// Times that units are held back. All fit long before, once their moves are halved.
-const MOST_ROUNDS: usize = 60;
+const MOST_ROUNDS: usize = 80;
 
 /// Moves the pattern of a canvas so that its units are even, and says what that did. Where
 /// nothing is gained the pattern stays where it is. None for fewer than two units.
@@ -166,27 +164,46 @@ fn lay(
 ) -> Option<(usize, usize)> {
     let mut centers = energy.start.to_vec();
     let mut moves = vec![Vector2::zeros(); tiles.len()];
-    let mut fixed = vec![false; tiles.len()];
+    let mut holds = border_holds(canvas, tiles, &centers);
+    let mut held_back = BTreeSet::new();
     let mut steps = 0;
     for round in 0..MOST_ROUNDS {
         if round < ROUNDS {
-            steps += descend(energy, &mut centers, &fixed).ok()?;
-            for i in (0..tiles.len()).filter(|&i| !fixed[i]) {
+            steps += descend(energy, &mut centers, &holds).ok()?;
+            for i in (0..tiles.len()).filter(|&i| holds[i] != Hold::Still) {
                 moves[i] = move_to(canvas, energy.locator, tiles[i], centers[i]);
             }
         }
         canvas.set_field(Some(field(canvas.tiling(), tiles, &moves)));
         let faulty = faulty(canvas, tiles);
         if faulty.is_empty() {
-            return Some((steps, fixed.iter().filter(|f| **f).count()));
+            return Some((steps, held_back.len()));
         }
-        for i in hold_back(canvas, tiles, &faulty, &mut moves, round < PUSHES) {
-            fixed[i] = true;
+        for (i, pushed) in hold_back(canvas, tiles, &faulty, &mut moves, round < PUSHES) {
+            held_back.insert(i);
             let p = canvas.placement().apply(canvas.middle(tiles[i]) + moves[i]);
+            let before = centers[i];
             centers[i] = canvas.chart().lift(canvas.chart().inside(p))?.position;
+            let way = (centers[i] - before).try_normalize(0.0).filter(|_| pushed);
+            holds[i] = way.map_or(Hold::Still, Hold::Across);
         }
     }
     None
+}
+
+/// Units at the border of the pattern may move along it, not off it. Left free, they come to
+/// lie farther inside where units are large, and the frame does not reach the ground.
+fn border_holds(canvas: &impl Canvas, tiles: &[TileId], centers: &[Point3]) -> Vec<Hold> {
+    let node: BTreeMap<TileId, usize> = tiles.iter().enumerate().map(|(i, &t)| (t, i)).collect();
+    let hold = |(i, &tile): (usize, &TileId)| {
+        let sides = canvas.net().tiles[tile].edges.len();
+        let beside: Vec<usize> =
+            canvas.net().neighbours(tile).filter_map(|t| node.get(&t).copied()).collect();
+        let inward: Vector3 = beside.iter().map(|&j| (centers[j] - centers[i]).normalize()).sum();
+        let way = inward.try_normalize(0.0).filter(|_| beside.len() < sides);
+        way.map_or(Hold::Free, Hold::Across)
+    };
+    tiles.iter().enumerate().map(hold).collect()
 }
 
 /// The move of a tile, in tile edges, that brings its centre to the place of the surface
@@ -223,28 +240,28 @@ fn faulty(canvas: &PlaneCanvas<PlanarChart>, tiles: &[TileId]) -> Vec<usize> {
 }
 
 /// Pushes tiles that do not fit back into the chart. Where that is no help, they and those
-/// round them get half their moves. Gives all that were changed.
+/// round them get half their moves. Gives all that were changed, and whether by a push.
 fn hold_back(
     canvas: &PlaneCanvas<PlanarChart>,
     tiles: &[TileId],
     faulty: &[usize],
     moves: &mut [Vector2<f64>],
     push: bool,
-) -> BTreeSet<usize> {
+) -> BTreeMap<usize, bool> {
     let corners = |i: usize| &canvas.net().tiles[tiles[i]].corners;
     let mut stuck: BTreeSet<usize> = BTreeSet::new();
     for &i in faulty {
         let way = canvas.overhang(tiles[i]);
         if push && way.norm() > 0.0 {
-            moves[i] += way * PUSH.max(LEAST_PUSH / way.norm());
+            moves[i] += way * (LEAST_PUSH / way.norm()).max(1.0);
         } else {
             stuck.extend(corners(i));
         }
     }
-    let mut changed: BTreeSet<usize> = faulty.iter().copied().collect();
+    let mut changed: BTreeMap<usize, bool> = faulty.iter().map(|&i| (i, true)).collect();
     for i in (0..tiles.len()).filter(|&i| corners(i).iter().any(|v| stuck.contains(v))) {
         moves[i] *= if moves[i].norm() < NO_MOVE { 0.0 } else { 0.5 };
-        changed.insert(i);
+        changed.insert(i, false);
     }
     changed
 }

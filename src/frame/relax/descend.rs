@@ -30,15 +30,37 @@ const CHANGE: f64 = 8.0;
 /// Tries to lessen the sum before the place is taken for the best.
 const TRIES: usize = 8;
 
-/// Moves the centres to where the energy is least, but for those that are fixed, and says
-/// how many steps it took. No step is taken that does not lessen the energy.
+/// How a centre may move.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Hold {
+    /// As it likes.
+    Free,
+    /// Only across this unit vector: along the border that holds it back.
+    Across(Vector3),
+    /// Not at all.
+    Still,
+}
+
+impl Hold {
+    /// What is left of a derivative.
+    fn part(&self, row: Vector3) -> Vector3 {
+        match self {
+            Self::Free => row,
+            Self::Across(way) => row - way * way.dot(&row),
+            Self::Still => Vector3::zeros(),
+        }
+    }
+}
+
+/// Moves the centres to where the energy is least, as far as they may, and says how many
+/// steps it took. No step is taken that does not lessen the energy.
 ///
 /// # Errors
 /// [`LinalgError::TooLarge`].
 pub fn descend(
     energy: &Energy,
     centers: &mut Vec<Point3>,
-    fixed: &[bool],
+    holds: &[Hold],
 ) -> Result<usize, LinalgError> {
     let mut system = System::new(energy, centers)?;
     let mut damping = DAMPING[0];
@@ -47,7 +69,7 @@ pub fn descend(
         let terms: Vec<Term> = energy.terms(centers).collect();
         let mut taken = None;
         for _ in 0..TRIES {
-            let Some(moves) = system.step(&terms, fixed, damping) else {
+            let Some(moves) = system.step(&terms, holds, damping) else {
                 damping *= CHANGE;
                 continue;
             };
@@ -103,14 +125,14 @@ impl System {
     }
 
     /// The damped step, in mean links; none where the system cannot be factored.
-    fn step(&mut self, terms: &[Term], fixed: &[bool], damping: f64) -> Option<Vec<Vector3>> {
+    fn step(&mut self, terms: &[Term], holds: &[Hold], damping: f64) -> Option<Vec<Vector3>> {
         self.values.clear();
         let mut x = vec![0.0; 3 * self.nodes];
         for term in terms {
-            // What is fixed has no derivatives, so it has no step.
-            let row: [f64; 9] = std::array::from_fn(|k| {
-                if fixed[term.nodes[k / 3]] { 0.0 } else { term.rows[k / 3][k % 3] }
-            });
+            // Where a centre may not move it has no derivatives, so it has no step.
+            let rows: [Vector3; 3] =
+                std::array::from_fn(|k| holds[term.nodes[k]].part(term.rows[k]));
+            let row: [f64; 9] = std::array::from_fn(|k| rows[k / 3][k % 3]);
             self.values.extend(block_entries(3 * term.count).map(|(i, j)| row[i] * row[j]));
             for (at, row) in unknowns(term).into_iter().zip(row).take(3 * term.count) {
                 x[at] -= term.error * row;
@@ -167,15 +189,16 @@ mod tests {
         let mean = unit;
         let energy =
             Energy { graph: &graph, mesh: &mesh, locator: &locator, start: &start, unit, mean };
-        let mut fixed = vec![false; n * n];
-        fixed[0] = true;
+        let mut holds = vec![Hold::Free; n * n];
+        holds[0] = Hold::Still;
+        holds[7] = Hold::Across(Vector3::x());
         let mut centers = start.clone();
         let mut last = energy.value(&centers);
         let first = last;
         loop {
             // One step at a time, by starting anew.
             let before = centers.clone();
-            descend(&energy, &mut centers, &fixed).expect("a small system");
+            descend(&energy, &mut centers, &holds).expect("a small system");
             let now = energy.value(&centers);
             assert!(now <= last);
             if before == centers {
@@ -185,6 +208,7 @@ mod tests {
         }
         assert!(last < 1e-3 * first, "{first} {last}");
         assert_eq!(centers[0], start[0]);
+        assert!((centers[7] - start[7]).x.abs() < 1e-9 && centers[7] != start[7]);
         assert!(graph.length_errors(&centers, unit).iter().all(|e| e.abs() < 0.01));
         assert!(graph.angle_errors(&centers).iter().all(|e| e.abs() < 1.0));
     }
