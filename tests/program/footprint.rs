@@ -56,6 +56,7 @@ fn every_unit_and_every_rod_of_the_structure_is_drawn_once() {
         ("igloo.obj", &["--pattern", "3.6.3.6", "--rotate", "25", "--origin", "40mm,-60mm"]),
         ("train-station.obj", &["--rotate=-15", "--paper", "letter", "--units", "in"]),
         ("seashell.obj", &["--pattern", "3.3.3.3.6"]),
+        ("seashell.obj", &["--pattern", "3.4.6.4", "--relax", "on"]),
         ("flat.obj", &["--pattern", "6.6.6", "--unit", "65mm", "--layer", "reciprocal"]),
     ] {
         let text = footprint(dir.path(), surface, args);

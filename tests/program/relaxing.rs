@@ -32,10 +32,10 @@ fn units_of_a_bug_become_more_even() {
     assert!(relax["steps"].as_u64().unwrap() > 0);
     let figure = |key: &str, when: &str, of: &str| relax[key][when][of].as_f64().unwrap();
     assert!(
-        figure("length_spread", "after", "rms") < 0.5 * figure("length_spread", "before", "rms")
+        figure("length_spread", "after", "rms") < 0.75 * figure("length_spread", "before", "rms")
     );
     let energy = |when: &str| relax["energy"][when].as_f64().unwrap();
-    assert!(energy("after") < 0.5 * energy("before"));
+    assert!(energy("after") < 0.7 * energy("before"));
     for key in ["angles", "lengths"] {
         let count = |when: &str| {
             let counts = relax[key][when]["counts"].as_array().unwrap();
