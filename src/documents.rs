@@ -5,7 +5,9 @@ use crate::drawing::pdf::{self, DocumentInfo, Page};
 use crate::drawing::{DrawingError, svg};
 use crate::frame::arrangement::arrangement;
 use crate::pipeline::Model;
-use crate::sheets::{Sheet, SheetError, SheetSettings, footprint, histogram_pairs, histograms};
+use crate::sheets::{
+    Sheet, SheetError, SheetSettings, footprint, histogram_pairs, histograms, relaxing_pairs,
+};
 use crate::sheets::{pictures, sheets, support_map};
 use crate::shop::lengths::classes;
 use crate::write::cutlist::{cutlist_csv, cutlist_json};
@@ -59,7 +61,9 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
         for (name, picture) in pictures(frame) {
             files.add(format!("pictures/{name}.svg"), svg::render(&picture)?);
         }
-        let figures = histograms(&histogram_pairs(&model.measures))?;
+        let mut pairs = histogram_pairs(&model.measures);
+        pairs.extend(model.relaxing.iter().flat_map(relaxing_pairs));
+        let figures = histograms(&pairs)?;
         files.add("pictures/histograms.svg", svg::render(&figures)?);
     }
     Ok(files.0)

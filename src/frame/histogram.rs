@@ -12,12 +12,10 @@ pub struct Histogram {
     pub counts: Vec<usize>,
 }
 
-/// The same figures of the frame as it was laid out and as it is built, in the same bins.
+/// The same figures before and after a step, in the same bins.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct BeforeAfter {
-    /// With rods straight, but no contact closed.
     pub before: Histogram,
-    /// With all contacts closed.
     pub after: Histogram,
 }
 

@@ -18,7 +18,8 @@ mod graph;
 
 use super::canvas::{Canvas, Field, PlaneCanvas};
 use super::crop::{crop, held};
-use super::measure::{Histogram, Spread, histogram, spread};
+use super::histogram::BeforeAfter;
+use super::measure::{Spread, spread};
 use super::weave::weave;
 use crate::chart::{Chart, PlanarChart};
 use crate::ids::{IdVec, TileId};
@@ -55,10 +56,10 @@ pub struct Relaxing {
     /// The sum that was made small.
     pub energy: Change<f64>,
     /// By how much angles between links differ from those in the plane, degrees.
-    pub angles: Change<Histogram>,
+    pub angles: BeforeAfter,
     /// By how much lengths of links differ from those in the plane, brought to the surface
     /// by one scale for all; as part of them.
-    pub lengths: Change<Histogram>,
+    pub lengths: BeforeAfter,
     /// The same angles.
     pub angle_spread: Change<Spread>,
     /// The same lengths.
@@ -133,8 +134,8 @@ pub fn relax(canvas: &mut PlaneCanvas<PlanarChart>) -> Option<Relaxing> {
         steps,
         held_back,
         energy: centers.map(|c| energy.value(c)),
-        angles: angles.map(|a| histogram(a, ANGLE_BIN)),
-        lengths: lengths.map(|l| histogram(l, LENGTH_BIN)),
+        angles: BeforeAfter::new(&angles.before, &angles.after, ANGLE_BIN),
+        lengths: BeforeAfter::new(&lengths.before, &lengths.after, LENGTH_BIN),
         angle_spread: angles.map(|a| spread(a.iter().copied())),
         length_spread: lengths.map(|l| spread(l.iter().copied())),
     })

@@ -10,6 +10,7 @@ use crate::drawing::font::{LEADING, text_width, wrap};
 use crate::drawing::{Color, Draw, Drawing, DrawingError, Paint, Point, Rect, Stroke, Weight};
 use crate::frame::histogram::{BeforeAfter, Histogram};
 use crate::frame::measure::Measures;
+use crate::frame::relax::Relaxing;
 
 /// Histograms of one kind of figure, to be compared.
 #[derive(Clone, PartialEq, Debug)]
@@ -59,16 +60,47 @@ const OUTLINE: Stroke = Stroke::new(0.3).color(Color::DARK_GREY);
 /// Height of a line of small text, mm.
 const LINE: f64 = SMALL * LEADING;
 
+fn both(
+    title: &'static str,
+    unit: &'static str,
+    of: &'static str,
+    good: &'static str,
+    pair: &BeforeAfter,
+) -> HistogramPair {
+    let BeforeAfter { before, after } = pair.clone();
+    HistogramPair { title, unit, of, good, before: Some(before), after }
+}
+
+/// The histograms of a pattern that was relaxed (paper, Fig. 12).
+pub fn relaxing_pairs(relaxing: &Relaxing) -> Vec<HistogramPair> {
+    let lengths = BeforeAfter {
+        before: per_cent(&relaxing.lengths.before),
+        after: per_cent(&relaxing.lengths.after),
+    };
+    vec![
+        both(
+            "Relaxing: angles between units",
+            "off the angle in the plane, degrees",
+            "angles",
+            "Before and after relaxing. Good: tall bars at the left.",
+            &relaxing.angles,
+        ),
+        both(
+            "Relaxing: distances of units",
+            "off the mean distance, per cent",
+            "neighbours",
+            "Before and after relaxing. Good: bars farther to the left; units are alike in size.",
+            &lengths,
+        ),
+    ]
+}
+
 /// The histograms of a frame; those without figures are left out.
 pub fn histogram_pairs(measures: &Measures) -> Vec<HistogramPair> {
     let found = &measures.histograms;
     let sides = BeforeAfter {
         before: per_cent(&found.unit_sides.before),
         after: per_cent(&found.unit_sides.after),
-    };
-    let both = |title, unit, of, good, pair: &BeforeAfter| {
-        let BeforeAfter { before, after } = pair.clone();
-        HistogramPair { title, unit, of, good, before: Some(before), after }
     };
     let moves = HistogramPair {
         title: "Moves of the rods",

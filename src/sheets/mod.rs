@@ -32,7 +32,7 @@ mod tests;
 
 pub use contact_sheet::{Exhibit, contact_sheet};
 pub use format::PaperUnits;
-pub use histograms::{HistogramPair, histogram_pairs, histograms};
+pub use histograms::{HistogramPair, histogram_pairs, histograms, relaxing_pairs};
 pub use page::Sheet;
 pub use paper::{Paper, PaperError};
 pub use pattern_picture::{PictureError, pattern_picture};
