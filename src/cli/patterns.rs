@@ -4,18 +4,20 @@ mod check;
 mod json;
 mod page;
 mod pictures;
+mod table;
 mod trial;
 
 use super::Failure;
 use super::terminal::{Terminal, print};
 use crate::pattern::{Pattern, PatternError, library};
 use std::path::{Path, PathBuf};
+use trial::Trial;
 
 #[derive(clap::Args)]
 pub struct Args {
-    /// Tell everything about this pattern: a name of the list, or a pattern file (.toml)
-    #[arg(group = "what")]
-    name: Option<String>,
+    /// Tell everything about these patterns: names of the list, or pattern files (.toml)
+    #[arg(value_name = "NAME", group = "what")]
+    names: Vec<String>,
 
     /// Check the rules of a pattern file: which tilings they make, or why none
     #[arg(long, value_name = "RULES.toml", group = "what")]
@@ -26,15 +28,16 @@ pub struct Args {
     cycle: Option<String>,
 
     /// Draw the pattern in the plane
-    #[arg(long, value_name = "FILE.svg", requires = "name", conflicts_with_all = ["json", "check"])]
+    #[arg(long, value_name = "FILE.svg", requires = "names", conflicts_with_all = ["json", "check"])]
     svg: Option<PathBuf>,
 
     /// Draw all patterns on one page, in the plane and on a dome
     #[arg(long, value_name = "FILE.svg", group = "what")]
     gallery: Option<PathBuf>,
 
-    /// Try all patterns on a surface, or on that of a design with its settings, and compare
-    #[arg(long, value_name = "SURFACE", group = "what")]
+    /// Try all patterns on a surface, or on that of a design with its settings, and compare;
+    /// with names, try these, and print how well they come out on all surfaces in one table
+    #[arg(long, value_name = "SURFACE", conflicts_with_all = ["check", "cycle", "svg", "gallery"])]
     on: Vec<PathBuf>,
 
     /// Print JSON
@@ -50,20 +53,42 @@ pub fn run(args: &Args, terminal: &Terminal) -> Result<(), Failure> {
     if let Some(file) = &args.gallery {
         return pictures::gallery(file);
     }
-    if !args.on.is_empty() {
-        return trial::run(&args.on, args.json, terminal);
+    if args.cycle.is_some() || args.svg.is_some() {
+        only_one(&args.names)?;
     }
-    let one = args.name.as_deref().map(|name| find(name, cycle)).transpose()?;
-    if let (Some(file), Some(pattern)) = (&args.svg, &one) {
+    let named = args.names.iter().map(|name| find(name, cycle));
+    let named: Vec<Pattern> = named.collect::<Result<_, _>>()?;
+    if !args.on.is_empty() {
+        let mut patterns: Vec<_> = args.names.iter().map(String::as_str).zip(&named).collect();
+        let together = !patterns.is_empty();
+        if !together {
+            patterns = library().iter().map(|p| (p.name.as_str(), p)).collect();
+        }
+        let trial = Trial { surfaces: &args.on, patterns, together, json: args.json };
+        return trial::run(&trial, terminal);
+    }
+    if let (Some(file), [pattern]) = (&args.svg, &named[..]) {
         return pictures::one(pattern, file);
     }
-    let text = match (&one, args.json) {
-        (Some(pattern), true) => json::patterns(std::slice::from_ref(pattern)),
-        (Some(pattern), false) => page::about(pattern, terminal),
-        (None, true) => json::patterns(library()),
-        (None, false) => page::list(terminal),
+    let text = match (&named[..], args.json) {
+        ([], true) => json::patterns(library()),
+        ([], false) => page::list(terminal),
+        (named, true) => json::patterns(named),
+        (named, false) => {
+            named.iter().map(|p| page::about(p, terminal)).collect::<Vec<_>>().join("\n")
+        }
     };
     print(text.as_bytes())
+}
+
+/// A picture, and another tiling, are of one pattern.
+fn only_one(names: &[String]) -> Result<(), Failure> {
+    match names {
+        [_, second, ..] => Err(Failure::usage(format!(
+            "--svg and --cycle take one pattern. Leave out {second} and what follows"
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// The pattern of a file or of the library, on another tiling if asked for.

@@ -43,35 +43,32 @@ pub fn broken(frame: &Frame) -> Vec<String> {
 }
 
 fn contact(frame: &Frame, c: &Contact, say: &mut dyn FnMut(String)) {
+    // What is not a number does not hold either.
+    let mut need = |holds: bool, what: String| {
+        if !holds {
+            say(what)
+        }
+    };
     let small = EXACT * frame.diameter;
     let (over, under) = (&frame.rods[c.over], &frame.rods[c.under]);
     if let ContactKind::End([a, b]) = c.kind {
         let apart = (over.axis.end(a) - under.axis.end(b)).norm();
-        if !(apart <= small) {
-            say(format!("ends {apart:e} mm apart"));
-        }
-        return;
+        return need(apart <= small, format!("ends {apart:e} mm apart"));
     }
     let apart = over.axis.at(c.at_over) - under.axis.at(c.at_under);
     let wanted = (over.diameter_at(c.at_over) + under.diameter_at(c.at_under)) / 2.0;
-    if !((apart.norm() - wanted).abs() <= small && (c.gap - wanted).abs() <= small) {
-        say(format!("gap {} for {wanted}", apart.norm()));
-    }
+    let exact = (apart.norm() - wanted).abs() <= small && (c.gap - wanted).abs() <= small;
+    need(exact, format!("gap {} for {wanted}", apart.norm()));
     // Across both axes: the marks are where the rods are nearest.
     let [u, v] = [over, under].map(|rod| rod.axis.direction());
-    if !(apart.dot(&u).abs() <= 1e-6 && apart.dot(&v).abs() <= 1e-6) {
-        say("not where the rods are nearest".into());
-    }
-    if !(apart.dot(&c.normal) > 0.0) {
-        say("the over rod is not over".into());
-    }
+    let across = apart.dot(&u).abs() <= 1e-6 && apart.dot(&v).abs() <= 1e-6;
+    need(across, "not where the rods are nearest".into());
+    need(apart.dot(&c.normal) > 0.0, "the over rod is not over".into());
     let on = |at: f64, length: f64| 0.0 < at && at < length;
-    if !(on(c.at_over, over.axis.length()) && on(c.at_under, under.axis.length())) {
-        say("off a rod".into());
-    }
-    if !((u.dot(&v).abs().min(1.0).acos() - c.angle).abs() <= 1e-6) {
-        say(format!("angle {}", c.angle));
-    }
+    let both = on(c.at_over, over.axis.length()) && on(c.at_under, under.axis.length());
+    need(both, "off a rod".into());
+    let angle = u.dot(&v).abs().min(1.0).acos();
+    need((angle - c.angle).abs() <= 1e-6, format!("angle {}", c.angle));
 }
 
 /// Rods that are nearer than both radii and not in contact.

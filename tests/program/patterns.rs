@@ -271,6 +271,42 @@ fn all_patterns_are_tried_on_a_surface() {
 }
 
 #[test]
+fn named_patterns_are_tried_on_several_surfaces_in_one_table() {
+    let dir = tempdir().unwrap();
+    let on = [sample("igloo.obj"), sample("peanut.toml")];
+    let tried = ["4.4.4.4", "3.12.12", "--on", &on[0], "--on", &on[1]];
+    let (status, text, message) = patterns(dir.path(), &tried);
+    assert_eq!(status, 0, "{message}");
+    let rows: Vec<Vec<&str>> = text
+        .lines()
+        .take_while(|line| line.starts_with('|'))
+        .map(|line| line.trim_matches('|').split('|').map(str::trim).collect())
+        .collect();
+    assert_eq!(rows[0][..3], ["surface", "pattern", "rod, mm"], "{text}");
+    let [igloo, peanut] = [0, 1].map(|i| on[i].as_str());
+    let all = [
+        [igloo, "4.4.4.4", "3"],
+        [igloo, "3.12.12", "3"],
+        [peanut, "4.4.4.4", "4"],
+        [peanut, "3.12.12", "4"],
+    ];
+    assert_eq!(rows.len(), 2 + all.len(), "{text}");
+    for (row, names) in rows[2..].iter().zip(all) {
+        assert_eq!(row[..3], names);
+        assert!(row[9] == "-" || row[9].parse::<f64>().unwrap() < 1e-9, "{row:?}");
+    }
+    // Every frame that could not be made has its reason below.
+    let failed = rows.iter().filter(|row| row[9] == "-").count();
+    assert_eq!(text.lines().filter(|line| line.contains(".12: ")).count(), failed, "{text}");
+    for wrong in
+        [&["4.4.4.4", "6.6.6", "--svg", "a.svg"][..], &["4.4.4.4", "6.6.6", "--cycle", "x"]]
+    {
+        let (status, _, message) = patterns(dir.path(), wrong);
+        assert_eq!((status, message.contains("Leave out 6.6.6")), (2, true), "{message}");
+    }
+}
+
+#[test]
 fn rods_that_reach_too_far_are_refused_with_the_reason() {
     let dir = tempdir().unwrap();
     let text = "tiling = \"4.4.4.4\"\nslide = { usual = 0.1, safe = [0, 0.3] }\n[[units]]\n\

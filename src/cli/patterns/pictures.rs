@@ -29,11 +29,11 @@ pub fn gallery(file: &Path) -> Result<(), Failure> {
     let dome = sample(DOME).ok_or_else(|| Failure::input(format!("no sample {DOME}")))?;
     let topology = require_chartable(&dome).map_err(Failure::input)?;
     let settings = Settings { surface: Some(DOME.into()), ..Settings::default() };
-    let on_dome = design(&settings, None, &library()[0])?;
+    let on_dome = design(&settings, None, &library()[0].name)?;
     let chart = PlanarChart::new(dome, &topology, on_dome.chart).map_err(Failure::input)?;
     let flat = Flat { chart, notes: Vec::new() };
-    let entry = |pattern| {
-        let design = design(&settings, None, pattern)?;
+    let entry = |pattern: &'static Pattern| {
+        let design = design(&settings, None, &pattern.name)?;
         let laid = lay(&design, pattern, &flat, &mut |_| {});
         let model = laid.map_err(|e| Failure::input(format!("{}: {e}", pattern.name)))?;
         let rims = model.guide.rims();

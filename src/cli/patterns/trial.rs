@@ -1,26 +1,29 @@
-//! All patterns tried on a surface, to choose from.
+//! Patterns tried on surfaces, to choose from.
 
+use super::table::{LARGE, Table, WIDE};
 use crate::cli::terminal::{Terminal, print};
 use crate::cli::{Failure, design_failure};
 use crate::design::{Design, Folders, Settings, Tiles};
-use crate::pattern::{Pattern, library};
+use crate::pattern::Pattern;
 use crate::pipeline::{BuildError, Model, flatten, lay};
 use serde::Serialize;
-use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The figures of a trial, as programs read them.
 #[derive(Serialize)]
-struct Figures<'a> {
-    surface: String,
-    pattern: &'a str,
+pub struct Figures<'a> {
+    pub surface: String,
+    pub pattern: &'a str,
+    /// Diameter of the rods, mm.
+    pub rod: f64,
     #[serde(flatten)]
-    outcome: Outcome,
+    pub outcome: Outcome,
 }
 
+/// What came of it. Lengths in mm; moves, rises and gaps in rod diameters.
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Outcome {
+pub enum Outcome {
     Made {
         rods: usize,
         units: usize,
@@ -30,7 +33,10 @@ enum Outcome {
         tile_edge: f64,
         median_rise: f64,
         median_move: f64,
+        mean_move: f64,
+        largest_move: f64,
         off_surface: f64,
+        worst_gap: f64,
         left_out: usize,
     },
     Failed {
@@ -38,36 +44,57 @@ enum Outcome {
     },
 }
 
-/// Tries all patterns of the library on each surface and prints the tables.
-pub fn run(surfaces: &[impl AsRef<Path>], json: bool, terminal: &Terminal) -> Result<(), Failure> {
+/// What is tried, and how it is told.
+pub struct Trial<'a> {
+    /// The surfaces, or designs.
+    pub surfaces: &'a [PathBuf],
+    /// The patterns, each with the name or file that it goes by.
+    pub patterns: Vec<(&'a str, &'a Pattern)>,
+    /// One table of everything, and not one a surface.
+    pub together: bool,
+    /// No table.
+    pub json: bool,
+}
+
+/// Tries patterns on each surface and prints the tables.
+pub fn run(trial: &Trial, terminal: &Terminal) -> Result<(), Failure> {
     let mut all = Vec::new();
-    let mut text = String::new();
-    for surface in surfaces {
-        let surface = surface.as_ref();
-        let (settings, folder) = settings(surface)?;
-        let first = design(&settings, folder, &library()[0])?;
-        let flat = flatten(&first, &mut |_| {}).map_err(|e| build_failure(&e, surface))?;
-        let mut figures = Vec::new();
-        for pattern in library() {
-            let design = design(&settings, folder, pattern)?;
-            figures.push(Figures {
-                surface: surface.display().to_string(),
-                pattern: &pattern.name,
-                outcome: outcome(lay(&design, pattern, &flat, &mut |_| {})),
-            });
-        }
-        let rod = first.rod;
-        if !text.is_empty() {
-            text.push('\n');
-        }
-        table(&mut text, &format!("{}, {rod} mm rods", surface.display()), &figures, terminal);
-        all.extend(figures);
+    for surface in trial.surfaces {
+        all.push(on_surface(surface, &trial.patterns)?);
     }
-    if json {
-        let list = serde_json::to_string_pretty(&all);
-        text = list.expect("names and figures, no maps: these can always be written") + "\n";
-    }
+    let text = if trial.json {
+        let list: Vec<&Figures> = all.iter().flatten().collect();
+        let list = serde_json::to_string_pretty(&list);
+        list.expect("names and figures, no maps: these can always be written") + "\n"
+    } else if trial.together {
+        Table::new(&WIDE, all.iter().flatten()).text()
+    } else {
+        let titled = |figures: &Vec<Figures>| {
+            let title = format!("## {}, {} mm rods", figures[0].surface, figures[0].rod);
+            format!("{}\n\n{}", terminal.bold(&title), Table::new(&LARGE, figures).text())
+        };
+        all.iter().map(titled).collect::<Vec<_>>().join("\n")
+    };
     print(text.as_bytes())
+}
+
+fn on_surface<'a>(
+    surface: &Path,
+    patterns: &[(&str, &'a Pattern)],
+) -> Result<Vec<Figures<'a>>, Failure> {
+    let (settings, folder) = settings(surface)?;
+    let first = design(&settings, folder, patterns[0].0)?;
+    let flat = flatten(&first, &mut |_| {}).map_err(|e| build_failure(&e, surface))?;
+    let figures = |&(name, pattern): &(&str, &'a Pattern)| {
+        let design = design(&settings, folder, name)?;
+        Ok(Figures {
+            surface: surface.display().to_string(),
+            pattern: &pattern.name,
+            rod: design.rod,
+            outcome: outcome(lay(&design, pattern, &flat, &mut |_| {})),
+        })
+    };
+    patterns.iter().map(figures).collect()
 }
 
 /// A surface with usual settings, or those of a design but for its pattern.
@@ -80,13 +107,9 @@ fn settings(surface: &Path) -> Result<(Settings, Option<&Path>), Failure> {
     Ok((settings, surface.parent()))
 }
 
-/// The design of a pattern with these settings.
-pub fn design(
-    settings: &Settings,
-    folder: Option<&Path>,
-    pattern: &Pattern,
-) -> Result<Design, Failure> {
-    let settings = Settings { pattern: Some(pattern.name.clone()), ..settings.clone() };
+/// The design of a pattern, by its name or file, with these settings.
+pub fn design(settings: &Settings, folder: Option<&Path>, name: &str) -> Result<Design, Failure> {
+    let settings = Settings { pattern: Some(name.into()), ..settings.clone() };
     let folders = Folders { surface: folder, pattern: None };
     let design = settings.resolve(folders).map_err(design_failure)?;
     match design.tiles {
@@ -114,82 +137,12 @@ fn outcome(laid: Result<Model, BuildError>) -> Outcome {
                 tile_edge: model.fit.edge,
                 median_rise: m.rises.median,
                 median_move: m.moves.median,
+                mean_move: m.moves.mean,
+                largest_move: m.moves.max,
                 off_surface: m.from_surface.rms,
+                worst_gap: m.worst_gap,
                 left_out: model.formed.frame.dropped.len(),
             }
         }
-    }
-}
-
-/// A table of Markdown, which reads well as it is.
-fn table(text: &mut String, title: &str, rows: &[Figures], terminal: &Terminal) {
-    const HEADS: [&str; 9] = [
-        "pattern",
-        "rods",
-        "units",
-        "lengths",
-        "rod in all, m",
-        "tile edge, mm",
-        "move, diameters",
-        "off, mm",
-        "left out",
-    ];
-    writeln!(text, "{}\n", terminal.bold(&format!("## {title}")))
-        .expect("writing to a string cannot fail");
-    let cells: Vec<[String; 9]> = rows.iter().map(cells).collect();
-    let widths: Vec<usize> = (0..HEADS.len())
-        .map(|i| cells.iter().map(|c| c[i].chars().count()).fold(HEADS[i].len(), usize::max))
-        .collect();
-    let mut line = |cells: [&str; 9]| {
-        for (i, (cell, width)) in cells.iter().zip(&widths).enumerate() {
-            let cell = if i == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") };
-            write!(text, "| {cell} ").expect("writing to a string cannot fail");
-        }
-        text.push_str("|\n");
-    };
-    line(HEADS);
-    let rule: Vec<String> = widths
-        .iter()
-        .enumerate()
-        .map(|(i, width)| if i == 0 { "-".repeat(*width) } else { "-".repeat(width - 1) + ":" })
-        .collect();
-    line(std::array::from_fn(|i| rule[i].as_str()));
-    for row in &cells {
-        line(std::array::from_fn(|i| row[i].as_str()));
-    }
-    for row in rows {
-        if let Outcome::Failed { failed } = &row.outcome {
-            write!(text, "\n{}: {failed}\n", row.pattern).expect("writing to a string cannot fail");
-        }
-    }
-}
-
-fn cells(row: &Figures) -> [String; 9] {
-    let name = row.pattern.to_owned();
-    match &row.outcome {
-        Outcome::Failed { .. } => {
-            std::array::from_fn(|i| if i == 0 { name.clone() } else { "-".into() })
-        }
-        Outcome::Made {
-            rods,
-            units,
-            different_lengths,
-            total_length,
-            tile_edge,
-            median_move,
-            off_surface,
-            left_out,
-            ..
-        } => [
-            name,
-            rods.to_string(),
-            units.to_string(),
-            different_lengths.to_string(),
-            format!("{:.2}", total_length / 1000.0),
-            format!("{tile_edge:.1}"),
-            format!("{median_move:.2}"),
-            format!("{off_surface:.1}"),
-            left_out.to_string(),
-        ],
     }
 }
