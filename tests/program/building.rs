@@ -29,7 +29,7 @@ fn a_frame_that_falls_apart_with_its_largest_unit_is_refused() {
     let dir = tempdir().unwrap();
     let output = rodwright(dir.path())
         .args(["build", &sample("train-station.obj"), "--pattern", "3.4.3.12+3.12.12"])
-        .args(["--turn", "16deg", "--only", "structure", "-o", "out"])
+        .args(["--turn", "16deg", "--close", "least", "--only", "structure", "-o", "out"])
         .output()
         .unwrap();
     let message = String::from_utf8(output.stderr).unwrap();

@@ -30,7 +30,7 @@ const MAX_STEPS: usize = 40;
 
 /// Steps after which bounds that are still broken are left so: whoever checks the frame
 /// finds them.
-const BOUND_STEPS: usize = 20;
+const BOUND_STEPS: usize = 12;
 
 /// Longest move of an end in one step, as part of the mean length of the axes. Longer moves
 /// leave the range in which the linearised gaps say anything; the step is shortened.
@@ -78,6 +78,10 @@ pub fn exact(
         }
         let before = held.len();
         held.extend(broken);
+        if task.is_crowded(held) {
+            bounds = None;
+            held.clear();
+        }
         let mut serves = held.len() == before && error < SERVES * last;
         last = error;
         let mut equations = Equations::of_contacts(&rows);

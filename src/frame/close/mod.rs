@@ -41,6 +41,11 @@ pub enum Way {
     Paper,
 }
 
+/// Bounds for each contact from which they are let be: whoever checks the frame will find
+/// it hopeless. More, and hopeless frames take minutes to be refused; fewer, and some with
+/// a crowded corner are.
+const CROWDED: f64 = 0.1;
+
 /// What is to be closed.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
@@ -149,6 +154,11 @@ fn approach(axes: &mut IdVec<RodId, Axis>, task: &Task) -> Result<Closing, Close
 impl<'a> Task<'a> {
     fn energy(&self, axes: &IdVec<RodId, Axis>) -> Energy {
         energy(axes, self.joints, self.circuits, self.edge)
+    }
+
+    /// Whether so many bounds are to be held that the frame has no room for its rods.
+    fn is_crowded(&self, held: &BTreeSet<Bound>) -> bool {
+        held.len() as f64 > CROWDED * self.joints.len() as f64
     }
 
     fn closing(

@@ -83,6 +83,9 @@ pub fn settle(
         if let Some(bounds) = &bounds {
             held.extend(bounds.broken(axes, &rows));
         }
+        if task.is_crowded(held) {
+            return Ok(step);
+        }
         let moves = system.direction(axes, &rows, task, bounds.as_ref(), held)?;
         let Some(tried) = system.shortened(axes, &moves, task, now) else { return Ok(step) };
         system.weighing.loosen(tried.part);
