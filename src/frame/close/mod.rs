@@ -46,6 +46,9 @@ pub enum Way {
 /// a crowded corner are.
 const CROWDED: f64 = 0.1;
 
+/// So many bounds are never too many: a small frame is soon solved with all of them.
+const FEW: usize = 12;
+
 /// What is to be closed.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
@@ -158,7 +161,7 @@ impl<'a> Task<'a> {
 
     /// Whether so many bounds are to be held that the frame has no room for its rods.
     fn is_crowded(&self, held: &BTreeSet<Bound>) -> bool {
-        held.len() as f64 > CROWDED * self.joints.len() as f64
+        held.len() > FEW && held.len() as f64 > CROWDED * self.joints.len() as f64
     }
 
     fn closing(
