@@ -1,12 +1,19 @@
 //! Closing on frames from files: time, steps, error of the worst contact, and the shape of
-//! the units before and after: `cargo bench --bench close -- FOLDER`.
+//! the units before and after: `cargo bench --bench close -- FOLDER [least|shape|paper]`.
 //!
 //! Every file of the folder is a JSON object
 //! `{w, rods: [[Ax, Ay, Az, Bx, By, Bz]], contacts: [[i, j, sign]], units: [{ends: [[rod,
 //! 0 or 1]], g}]}`. The gap of a contact is (A_i − A_j)·n, with n the unit vector along
 //! (B_i − A_i) × (B_j − A_j), and is to become sign·w. The rods of a unit are named in
 //! order, and g is where its middle belongs.
+//!
+//! The last column names what a sparse direct projection (CHOLMOD on J Jᵀ, own C++) and a
+//! general solver (Ceres, until exact) were seen to take on frames of that many rods, on
+//! a machine of two slow cores.
 
+mod measure;
+
+use measure::{forget_peak, least, ms, peak_memory};
 use rodwright::chart::SurfacePoint;
 use rodwright::frame::ContactKind;
 use rodwright::frame::axis::Axis;
@@ -20,7 +27,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 #[derive(Deserialize)]
 struct File {
@@ -41,14 +48,26 @@ const BUDGET: Duration = Duration::from_secs(10);
 const RUNS: usize = 15;
 
 fn main() {
-    let folder = std::env::args().skip(1).find(|a| !a.starts_with("--"));
-    let Some(folder) = folder else {
+    let mut words = std::env::args().skip(1).filter(|a| !a.starts_with("--"));
+    let Some(folder) = words.next() else {
         println!("name a folder of problems: cargo bench --bench close -- FOLDER");
         return;
     };
+    let only = words.next();
     println!(
-        "{:<10} {:>6} {:<7} {:>10} {:>7} {:>6} {:>9} {:>6} {:>22} {:>22} {:>22}",
-        "problem", "rods", "way", "ms", "shaping", "exact", "error / w", "bounds", "F2", "F3", "F4"
+        "{:<10} {:>6} {:<7} {:>10} {:>7} {:>7} {:>6} {:>9} {:>6} {:>22} {:>22} {:>22}  others, ms",
+        "problem",
+        "rods",
+        "way",
+        "ms",
+        "peak MB",
+        "shaping",
+        "exact",
+        "error / w",
+        "bounds",
+        "F2",
+        "F3",
+        "F4"
     );
     let mut files: Vec<_> = std::fs::read_dir(&folder)
         .expect("the folder can be read")
@@ -56,11 +75,10 @@ fn main() {
         .filter(|path| path.extension().is_some_and(|e| e == "json"))
         .collect();
     files.sort_by_key(|path| path.metadata().map_or(0, |m| m.len()));
-    files.iter().for_each(|file| problem(file));
-    println!("peak memory {}", peak_memory());
+    files.iter().for_each(|file| problem(file, only.as_deref()));
 }
 
-fn problem(path: &Path) {
+fn problem(path: &Path, only: Option<&str>) {
     let text = std::fs::read_to_string(path).expect("the file can be read");
     let file: File = serde_json::from_str(&text).expect("a problem");
     let axes: IdVec<RodId, Axis> = file
@@ -77,9 +95,32 @@ fn problem(path: &Path) {
     let bounded = Task { limits: Some(&limits), ..task };
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     for (way, task) in [(Way::Least, &task), (Way::Shape, &bounded), (Way::Paper, &task)] {
-        let (time, closing) = least(|| close(&mut axes.clone(), task, way));
+        if only.is_some_and(|only| only != word(way)) {
+            continue;
+        }
+        forget_peak();
+        let (time, closing) = least(RUNS, BUDGET, || close(&mut axes.clone(), task, way));
         let made = closing.expect("the problem closes");
         row(&name, axes.len(), way, time, &made);
+    }
+}
+
+/// What others take for frames of so many rods, ms.
+fn others(rods: usize) -> &'static str {
+    match rods {
+        516 => "CHOLMOD 3.4, Ceres 400",
+        632 => "CHOLMOD 4.1, Ceres 450",
+        6728 => "CHOLMOD 130, Ceres 11400",
+        65060 => "CHOLMOD 1600, Ceres 1233000",
+        _ => "",
+    }
+}
+
+fn word(way: Way) -> &'static str {
+    match way {
+        Way::Shape => "shape",
+        Way::Least => "least",
+        Way::Paper => "paper",
     }
 }
 
@@ -91,9 +132,11 @@ fn row(name: &str, rods: usize, way: Way, time: Duration, made: &Closing) {
     let [from, to] = made.energy;
     let change = |a: f64, b: f64| format!("{a:.3e} -> {b:.3e}");
     println!(
-        "{name:<10} {rods:>6} {:<7} {:>10.2} {:>7} {:>6} {:>9.1e} {:>6} {:>22} {:>22} {:>22}",
-        format!("{way:?}").to_lowercase(),
-        time.as_secs_f64() * 1e3,
+        "{name:<10} {rods:>6} {:<7} {:>10.2} {:>7.0} {:>7} {:>6} {:>9.1e} {:>6} {:>22} {:>22} \
+         {:>22}  {}",
+        word(way),
+        ms(time),
+        peak_memory(),
         made.shaping,
         made.steps,
         made.error,
@@ -101,6 +144,7 @@ fn row(name: &str, rods: usize, way: Way, time: Duration, made: &Closing) {
         change(from.places, to.places),
         change(from.angles, to.angles),
         change(from.sides, to.sides),
+        others(rods),
     );
 }
 
@@ -146,27 +190,4 @@ fn limits(axes: &IdVec<RodId, Axis>, joints: &IdVec<ContactId, Joint>, w: f64) -
         thickness: vec![w; axes.len()].into(),
         diameter: w,
     }
-}
-
-/// The least time of several runs, and the last result.
-fn least<T>(mut work: impl FnMut() -> T) -> (Duration, T) {
-    let began = Instant::now();
-    let mut best = Duration::MAX;
-    for run in 1.. {
-        let start = Instant::now();
-        let result = work();
-        best = best.min(start.elapsed());
-        if run == RUNS || began.elapsed() > BUDGET {
-            return (best, result);
-        }
-    }
-    unreachable!("the loop ends at RUNS")
-}
-
-/// The process' peak memory where the system tells it.
-fn peak_memory() -> String {
-    std::fs::read_to_string("/proc/self/status")
-        .ok()
-        .and_then(|s| s.lines().find_map(|l| l.strip_prefix("VmHWM:").map(str::to_string)))
-        .map_or_else(|| "unknown".into(), |m| m.trim().to_string())
 }

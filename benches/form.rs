@@ -1,14 +1,19 @@
-//! Time of each step from chart to closed frame against the number of rods, on the
-//! igloo. Prints a table: `cargo bench --bench form`.
+//! Time and memory of each step from chart to closed frame against the number of rods, on a
+//! smooth dome. Prints a table: `cargo bench --bench form [-- MOST_RODS]`.
 //!
-//! Every row is the least of several runs. The first columns say what was made; the
-//! error is that of the worst contact, as part of the rod diameter.
+//! Every time is the least of several runs, of large frames of one. `growth` is the exponent
+//! of the whole time from the row before: 1 is linear. The first column of figures to compare
+//! with is that of the paper (Table 1, closing only), whose contacts stay some thousandths of
+//! a diameter open; `error` is that of the worst contact here, in diameters.
 
-use rodwright::chart::{Method, PlanarChart};
-use rodwright::frame::canvas::PlaneCanvas;
+mod measure;
+
+use measure::{forget_peak, least, ms, peak_memory};
+use nalgebra::Point2;
+use rodwright::chart::{Chart, SurfacePoint};
+use rodwright::frame::canvas::{Canvas, PlaneCanvas};
 use rodwright::frame::close::{Way, project};
-use rodwright::frame::fit::{Fit, fit};
-use rodwright::frame::form::{FormSettings, form};
+use rodwright::frame::form::{FormSettings, form, median_rise};
 use rodwright::frame::gaps::Joint;
 use rodwright::frame::layer::Layering;
 use rodwright::frame::{
@@ -17,59 +22,92 @@ use rodwright::frame::{
     weave::weave,
 };
 use rodwright::pattern::Pattern;
-use rodwright::surface::samples::sample;
-use rodwright::surface::topology::require_disk;
 use rodwright::tiling::Placement;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-/// Rod counts aimed at: those of the paper's Table 1, then larger ones.
-const SIZES: [f64; 9] = [24.0, 49.0, 97.0, 205.0, 413.0, 500.0, 1000.0, 5000.0, 20000.0];
+/// Rod counts aimed at, each with the paper's seconds for closing so many.
+const SIZES: [(f64, Option<f64>); 12] = [
+    (24.0, Some(0.029)),
+    (49.0, Some(0.186)),
+    (97.0, Some(1.318)),
+    (205.0, Some(12.13)),
+    (413.0, Some(98.66)),
+    (1e3, None),
+    (2e3, None),
+    (5e3, None),
+    (2e4, None),
+    (5e4, None),
+    (1e5, None),
+    (5e5, None),
+];
 
-const RUNS: usize = 5;
+/// Frames up to this many rods unless another number is given.
+const MOST_RODS: f64 = 1e5;
 
-/// Rods of the igloo with 3 mm sticks at fit; their number grows as one over the diameter.
-const RODS_AT_3_MM: f64 = 141.0;
+const RUNS: usize = 7;
+const BUDGET: Duration = Duration::from_secs(3);
 
-/// The least time of several runs, and the last result.
-fn least<T>(mut work: impl FnMut() -> T) -> (Duration, T) {
-    let mut best: Option<(Duration, T)> = None;
-    for _ in 0..RUNS {
-        let start = Instant::now();
-        let result = work();
-        let time = start.elapsed();
-        let shorter = best.as_ref().map_or(time, |b| time.min(b.0));
-        best = Some((shorter, result));
+/// A dome: the part of a sphere of this radius, mm, whose stereographic picture lies within a
+/// disk of this part of it.
+struct Dome {
+    radius: f64,
+    part: f64,
+}
+
+impl Chart for Dome {
+    fn bounds(&self) -> [Point2<f64>; 2] {
+        let r = self.radius * self.part;
+        [Point2::new(-r, -r), Point2::new(r, r)]
     }
-    best.expect("at least one run")
+
+    fn lift(&self, p: Point2<f64>) -> Option<SurfacePoint> {
+        let q = p.coords / self.radius;
+        let far = q.norm_squared();
+        // The plane touches the sphere at the top; from the opposite pole it is twice as far.
+        let down = 1.0 + far / 4.0;
+        let normal = nalgebra::Vector3::new(q.x, q.y, 1.0 - far / 4.0) / down;
+        (far <= self.part * self.part)
+            .then(|| SurfacePoint { position: (normal * self.radius).into(), normal })
+    }
 }
 
 fn main() {
-    let mesh = sample("igloo").expect("the igloo is a sample");
-    let topology = require_disk(&mesh).expect("the igloo is a disk");
-    let (chart_time, chart) = least(|| {
-        PlanarChart::new(mesh.clone(), &topology, Method::Abf).expect("the igloo flattens")
-    });
-    println!("chart of {} triangles: {:.1} ms", mesh.triangles.len(), ms(chart_time));
+    let most = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(MOST_RODS);
     println!(
-        "{:>6} {:>9} {:>9} {:>8} {:>10} {:>10} {:>10} {:>6} {:>9}",
-        "rods", "contacts", "rod mm", "fit ms", "lift ms", "close ms", "all ms", "steps", "error"
+        "{:>7} {:>9} {:>8} {:>10} {:>11} {:>10} {:>7} {:>8} {:>9} {:>5} {:>9} {:>10}",
+        "rods",
+        "contacts",
+        "rod mm",
+        "lift ms",
+        "project ms",
+        "all ms",
+        "growth",
+        "peak MB",
+        "shaping",
+        "exact",
+        "error",
+        "paper ms"
     );
-    for size in SIZES {
-        row(&chart, 3.0 * RODS_AT_3_MM / size);
+    let mut last = None;
+    for (rods, paper) in SIZES.into_iter().filter(|size| size.0 <= most) {
+        let now = row(rods, paper, last);
+        last = Some(now);
     }
-    println!("peak memory {}", peak_memory());
 }
 
-fn row(chart: &PlanarChart, diameter: f64) {
+/// One row; returns the number of rods and the whole time, ms.
+fn row(rods: f64, paper: Option<f64>, last: Option<(f64, f64)>) -> (f64, f64) {
+    let dome = Dome { radius: 300.0, part: 1.0 };
     let pattern = Pattern::named("4.4.4.4").expect("4.4.4.4 is in the library");
     let shape = pattern.usual();
-    let start = Placement { origin: [0.0; 2].into(), rotation: 0.0, edge: 1.0 };
-    let (fit_time, found) = least(|| fit(chart, pattern, &start, shape, diameter));
-    // Thick rods leave too few units for a fit; the square law still places them.
-    let edge = found.map_or_else(|_| 75.0 * (diameter / 3.0).sqrt(), |f: Fit| f.edge);
-    let placement = Placement { edge, ..start };
-    let canvas = PlaneCanvas::new(chart, pattern, placement, shape).expect("under a million");
-    let (lift_time, (woven, lifted)) = least(|| {
+    // Two rods a tile, and some less at the rim.
+    let area = std::f64::consts::PI * (dome.radius * dome.part).powi(2);
+    let edge = (2.0 * area / rods).sqrt() * (1.0 - 0.9 / rods.sqrt());
+    let placement = Placement { origin: [0.0; 2].into(), rotation: 0.0, edge };
+    forget_peak();
+    let canvas = PlaneCanvas::new(&dome, pattern, placement, shape).expect("under a million");
+    let (_, diameter) = median_rise(&canvas).expect("there are units");
+    let (lift_time, (woven, lifted)) = least(RUNS, BUDGET, || {
         let tiles = crop(&canvas, &held(&canvas));
         let woven = weave(&canvas, &tiles).expect("cropped tiles lie on the chart");
         let lifted = lift(&woven).expect("rods of a regular tile are not parallel");
@@ -86,37 +124,34 @@ fn row(chart: &PlanarChart, diameter: f64) {
             kind: c.kind,
         })
         .collect();
-    let (close_time, closing) = least(|| project(&mut lifted.axes.clone(), &joints));
+    let (project_time, _) = least(RUNS, BUDGET, || {
+        project(&mut lifted.axes.clone(), &joints).expect("contacts of a dome close")
+    });
     let settings = FormSettings {
         sizes: Default::default(),
         diameter,
         overhang: 2.0 * diameter,
-        round: 0.5,
+        round: 1e-3 * canvas.edge(),
         layering: Layering::Auto,
         way: Way::default(),
         surface_low: 0.0,
     };
-    let (all_time, _) = least(|| form(&canvas, &settings));
-    let (steps, error) = closing.map_or((0, f64::NAN), |c| (c.steps, c.error));
+    let (time, formed) =
+        least(RUNS, BUDGET, || form(&canvas, &settings).expect("a dome can be built"));
+    let (rods, all) = (formed.frame.rods.len() as f64, ms(time));
+    let growth = |(n, t): (f64, f64)| (all / t).ln() / (rods / n).ln();
     println!(
-        "{:>6} {:>9} {diameter:>9.3} {:>8.1} {:>10.2} {:>10.2} {:>10.2} {steps:>6} {error:>9.1e}",
-        woven.rods.len(),
-        woven.contacts.len(),
-        ms(fit_time),
+        "{rods:>7} {:>9} {diameter:>8.3} {:>10.2} {:>11.2} {all:>10.2} {:>7} {:>8.0} {:>9} {:>5} \
+         {:>9.1e} {:>10}",
+        formed.frame.contacts.len(),
         ms(lift_time),
-        ms(close_time),
-        ms(all_time),
+        ms(project_time),
+        last.map_or_else(String::new, |last| format!("{:.2}", growth(last))),
+        peak_memory(),
+        formed.closing.shaping,
+        formed.closing.steps,
+        formed.closing.error,
+        paper.map_or_else(String::new, |s| format!("{:.0}", s * 1e3)),
     );
-}
-
-fn ms(time: Duration) -> f64 {
-    time.as_secs_f64() * 1e3
-}
-
-/// The process' peak memory where the system tells it.
-fn peak_memory() -> String {
-    std::fs::read_to_string("/proc/self/status")
-        .ok()
-        .and_then(|s| s.lines().find_map(|l| l.strip_prefix("VmHWM:").map(str::to_string)))
-        .map_or_else(|| "unknown".into(), |m| m.trim().to_string())
+    (rods, all)
 }

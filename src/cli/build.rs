@@ -102,10 +102,10 @@ fn ill_fitting(design: &Design, fit: &Fit) -> Option<String> {
         FitBy::Given if design.unit.is_some() => ", or leave out --unit",
         FitBy::Given => ", or leave out --turn",
         FitBy::TurnLimit => "",
-        FitBy::Edge | FitBy::Turn | FitBy::Plain => return None,
+        FitBy::Edge | FitBy::Smaller | FitBy::Turn | FitBy::Plain => return None,
     };
     let ratio = design.rod / fit.rise;
-    if ratio > FLAT {
+    if fit.is_flat(design.rod) {
         // There the choice of who goes over keeps the frame on the surface.
         return (design.layer != Layering::Auto).then(|| {
             "the surface is too flat to lift the rods over each other: the frame will stand off it"
@@ -122,9 +122,6 @@ fn ill_fitting(design: &Design, fit: &Fit) -> Option<String> {
         design.rod, fit.edge, fit.rise
     ))
 }
-
-/// A stick this many times thicker than the rise has no rise to speak of.
-const FLAT: f64 = 20.0;
 
 /// A stick this many times thicker or thinner than the rise sits badly.
 const ILL_FITTING: f64 = 2.0;

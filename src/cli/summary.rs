@@ -74,8 +74,12 @@ pub fn diameter([a, b]: [f64; 2]) -> String {
 fn unit(model: &Model) -> String {
     let fit = &model.fit;
     let how = match fit.by {
+        FitBy::Given if fit.is_flat(model.formed.frame.diameter) => {
+            "as given; on so flat a surface all rods suit it alike".into()
+        }
         FitBy::Given => format!("as given; rods of {:.1} mm would suit it best", fit.rise),
         FitBy::Edge => "fitted to rod and surface".into(),
+        FitBy::Smaller => "fitted to rod and surface, where it is curved most".into(),
         FitBy::Turn => format!("rods turned by {:.1}° to suit them", fit.turn.to_degrees()),
         FitBy::TurnLimit => format!(
             "rods turned by {:.1}°, as far as is safe; {:.1} mm rods would suit it best",

@@ -26,11 +26,25 @@ pub struct Fit {
     pub by: FitBy,
 }
 
+/// Part of the diameter below which a rise is none to speak of: there the choice of who goes
+/// over decides, and no diameter suits better than others.
+const FLAT: f64 = 1.0 / 20.0;
+
+impl Fit {
+    /// Whether the surface is too flat under these units for the rise to say which rods suit
+    /// them; `diameter` is that of the rods, mm.
+    pub fn is_flat(&self, diameter: f64) -> bool {
+        self.rise < FLAT * diameter
+    }
+}
+
 /// What a fit rests on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum FitBy {
     /// The tile edge at which the rise equals the diameter.
     Edge,
+    /// A smaller edge than that, with which rods have to be moved less.
+    Smaller,
     /// The turn at which it does; the surface has its own tiles.
     Turn,
     /// The least or greatest turn that is safe: the rods would suit another one better.

@@ -47,7 +47,8 @@ pub enum FormError {
     /// Too much had to be left out.
     #[error(
         "{dropped} of {total} units of edge {edge:.1} mm do not work with {diameter} mm rods; the \
-         first: {first}. {advice}, another turn (--turn) or a shorter overhang (--overhang)"
+         first: {first}. Try {}{other}, another turn (--turn) or a shorter overhang (--overhang)",
+        .fitting.map_or_else(String::new, |fitting| format!("{fitting}, "))
     )]
     TooManyDropped {
         dropped: usize,
@@ -55,7 +56,8 @@ pub enum FormError {
         edge: f64,
         diameter: f64,
         first: String,
-        advice: &'static str,
+        fitting: Option<&'static str>,
+        other: &'static str,
     },
     /// A rod is given a diameter and is not there.
     #[error(
@@ -164,13 +166,15 @@ fn too_many(
     canvas: &impl Canvas,
     settings: &FormSettings,
 ) -> FormError {
+    let Sizing { fitting, other, .. } = canvas.sizing();
     FormError::TooManyDropped {
         dropped,
         total,
         edge: canvas.edge(),
         diameter: settings.diameter,
         first: first.to_string(),
-        advice: canvas.sizing().fitting,
+        fitting: Some(fitting),
+        other,
     }
 }
 

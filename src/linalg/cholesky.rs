@@ -5,6 +5,7 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot;
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::perm::PermRef;
+use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
@@ -33,7 +34,7 @@ impl<T: ComplexField> Cholesky<T> {
     /// # Errors
     /// [`LinalgError::TooLarge`] when memory does not suffice.
     pub fn new(pattern: LowerPattern) -> Result<Self, LinalgError> {
-        Self::ordered(pattern, SymmetricOrdering::Amd)
+        Self::ordered(pattern, SymmetricOrdering::Amd, SupernodalThreshold::AUTO)
     }
 
     /// Analyses a matrix with `k` unknowns in place of each one of the pattern. The order
@@ -50,19 +51,22 @@ impl<T: ComplexField> Cholesky<T> {
             inverse[old as usize] = new as u32;
         }
         let order = PermRef::new_checked(&forward, &inverse, forward.len());
-        Self::ordered(pattern.times(k)?, SymmetricOrdering::Custom(order))
+        // The columns of a block are alike, so that they go together even in small systems.
+        let columns = SupernodalThreshold::FORCE_SUPERNODAL;
+        Self::ordered(pattern.times(k)?, SymmetricOrdering::Custom(order), columns)
     }
 
     fn ordered(
         pattern: LowerPattern,
         order: SymmetricOrdering<'_, u32>,
+        supernodal_flop_ratio_threshold: SupernodalThreshold,
     ) -> Result<Self, LinalgError> {
         let too_large = LinalgError::TooLarge { size: pattern.size() };
         let symbolic = factorize_symbolic_cholesky(
             symbolic(&pattern),
             Side::Lower,
             order,
-            CholeskySymbolicParams::default(),
+            CholeskySymbolicParams { supernodal_flop_ratio_threshold, ..Default::default() },
         )
         .map_err(|_| too_large.clone())?;
         let numeric = symbolic.factorize_numeric_llt_scratch::<T>(Par::Seq, Spec::default());

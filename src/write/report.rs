@@ -148,6 +148,7 @@ pub fn fit(fit: &Fit) -> Fitted {
     let by = match fit.by {
         FitBy::Given => "given",
         FitBy::Edge => "rise",
+        FitBy::Smaller => "move",
         FitBy::Turn => "turn",
         FitBy::TurnLimit => "turn-limit",
         FitBy::Plain => "plain",

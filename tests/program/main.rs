@@ -4,6 +4,7 @@ mod building;
 mod check;
 mod converting;
 mod footprint;
+mod forming;
 mod inspecting;
 mod patterns;
 mod refusals;

@@ -234,7 +234,8 @@ impl Canvas for MeshCanvas<'_> {
         Sizing {
             larger: "a coarser mesh or a larger span (--span)",
             smaller: "a finer mesh",
-            fitting: "Try more even polygons, a turn fitted to the rods (without --turn)",
+            fitting: "a turn fitted to the rods (without --turn)",
+            other: "more even polygons",
         }
     }
 }

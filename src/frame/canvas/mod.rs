@@ -76,8 +76,10 @@ pub struct Sizing {
     pub larger: &'static str,
     /// How to get smaller ones.
     pub smaller: &'static str,
-    /// What to try where rods and units do not suit each other, as a clause.
+    /// How to get units that suit the rods.
     pub fitting: &'static str,
+    /// What else to try where they do not.
+    pub other: &'static str,
 }
 
 /// Ranks of tiles with these middles, seen from above: rings of neighbours round the

@@ -301,7 +301,8 @@ impl<C: Chart> Canvas for PlaneCanvas<'_, C> {
         Sizing {
             larger: "larger units (--unit)",
             smaller: "smaller units (--unit)",
-            fitting: "Try units fitted to the rods (without --unit), another pattern (--pattern)",
+            fitting: "units fitted to the rods (without --unit)",
+            other: "another pattern (--pattern)",
         }
     }
 }

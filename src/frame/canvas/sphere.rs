@@ -206,7 +206,8 @@ impl Canvas for SphereCanvas<'_> {
         Sizing {
             larger: "a lower frequency or a larger span (--span)",
             smaller: "a higher frequency, or cut less away (--cut)",
-            fitting: "Try another notation, a turn fitted to the rods (without --turn)",
+            fitting: "a turn fitted to the rods (without --turn)",
+            other: "another notation",
         }
     }
 }

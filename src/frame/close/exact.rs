@@ -5,7 +5,7 @@
 //! serves for the next.
 
 use super::bounds::Bound;
-use super::equations::{Equations, Move, Moves, longest, moved};
+use super::equations::{Equations, longest, moved};
 use super::projector::Projector;
 use super::{CloseError, Task, gap_rows, worst};
 use crate::frame::axis::Axis;
@@ -58,11 +58,11 @@ pub fn exact(
     axes: &mut IdVec<RodId, Axis>,
     task: &Task,
     held: &mut BTreeSet<Bound>,
+    projector: &mut Option<Projector>,
 ) -> Result<Exact, CloseError> {
     let mean = axes.iter().map(Axis::length).sum::<f64>() / axes.len() as f64;
     let mut rows = gap_rows(axes, task.joints)?;
     let mut bounds = task.bounds(axes, &rows);
-    let mut projector: Option<Projector> = None;
     let mut last = f64::INFINITY;
     for step in 0..=MAX_STEPS {
         let error = worst(&rows);
@@ -82,23 +82,17 @@ pub fn exact(
             bounds = None;
             held.clear();
         }
-        let mut serves = held.len() == before && error < SERVES * last;
+        let serves = step > 0 && held.len() == before && error < SERVES * last;
         last = error;
         let mut equations = Equations::of_contacts(&rows);
         if let Some(bounds) = &bounds {
             held.retain(|&bound| bounds.hold(bound, axes, &mut equations));
         }
-        if projector.as_ref().is_none_or(|p| !p.suits(&equations)) {
-            projector = Some(Projector::new(axes.len(), &equations)?);
-            serves = false;
-        }
-        let Some(projector) = &mut projector else { unreachable!("made in the lines before") };
-        if !serves {
+        let (projector, new) = Projector::for_equations(projector, axes.len(), &equations)?;
+        if new || !serves {
             projector.factor(&equations, |row| yields(row, rows.len()))?;
         }
-        let pull = projector.solve(equations.lacking.clone());
-        let mut moves: Moves = vec![Move::zeros(); axes.len()].into();
-        equations.pull(&pull, 1.0, &mut moves);
+        let (moves, pull) = projector.least_moves(&equations);
         release(held, &pull[rows.len()..]);
         let part = (LONGEST_MOVE * mean / longest(&moves)).min(1.0);
         *axes = moved(axes, &moves, part);

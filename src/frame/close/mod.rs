@@ -26,7 +26,7 @@ use exact::exact;
 use serde::{Deserialize, Serialize};
 use shape::{Circuit, Energy, energy};
 use std::collections::BTreeSet;
-use steps::{FIRM, PAPER, settle};
+use steps::{Weighing, settle};
 
 /// How contacts are closed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, clap::ValueEnum)]
@@ -134,22 +134,23 @@ pub fn project(
 }
 
 fn shaped(axes: &mut IdVec<RodId, Axis>, task: &Task) -> Result<Closing, CloseError> {
-    let (before, mut held) = (task.energy(axes), BTreeSet::new());
-    let shaping = settle(axes, task, &FIRM, &mut held)?;
-    let done = exact(axes, task, &mut held)?;
+    let (before, mut held, mut projector) = (task.energy(axes), BTreeSet::new(), None);
+    let weighing = if task.roam.is_some() { &Weighing::NEAR } else { &Weighing::FREE };
+    let shaping = settle(axes, task, weighing, &mut held, &mut projector)?;
+    let done = exact(axes, task, &mut held, &mut projector)?;
     Ok(task.closing(shaping, done.steps, done.error, [before, task.energy(axes)], &held))
 }
 
 fn least(axes: &mut IdVec<RodId, Axis>, task: &Task) -> Result<Closing, CloseError> {
     let (before, mut held) = (task.energy(axes), BTreeSet::new());
-    let done = exact(axes, task, &mut held)?;
+    let done = exact(axes, task, &mut held, &mut None)?;
     Ok(task.closing(0, done.steps, done.error, [before, task.energy(axes)], &held))
 }
 
 /// The paper's own way.
 fn approach(axes: &mut IdVec<RodId, Axis>, task: &Task) -> Result<Closing, CloseError> {
     let (before, mut held) = (task.energy(axes), BTreeSet::new());
-    let shaping = settle(axes, task, &PAPER, &mut held)?;
+    let shaping = settle(axes, task, &Weighing::PAPER, &mut held, &mut None)?;
     let error = worst(&gap_rows(axes, task.joints)?);
     Ok(task.closing(shaping, 0, error, [before, task.energy(axes)], &held))
 }

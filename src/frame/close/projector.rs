@@ -1,7 +1,7 @@
 //! The least moves that meet linear equations: with J the gradients, the least move with
 //! J dx = r is dx = Jᵀ (J Jᵀ)⁻¹ r.
 
-use super::equations::Equations;
+use super::equations::{Equations, Move, Moves};
 use crate::ids::{IdVec, RodId};
 use crate::linalg::{LinalgError, SpdSolver, block_entries};
 
@@ -28,7 +28,7 @@ impl Projector {
     ///
     /// # Errors
     /// [`LinalgError::TooLarge`] when memory does not suffice.
-    pub fn new(rods: usize, equations: &Equations) -> Result<Self, LinalgError> {
+    fn new(rods: usize, equations: &Equations) -> Result<Self, LinalgError> {
         let mut around: IdVec<RodId, Vec<Meeting>> = vec![Vec::with_capacity(4); rods].into();
         let rows = equations.len();
         for row in 0..rows {
@@ -48,8 +48,24 @@ impl Projector {
         Ok(Self { solver: SpdSolver::new(rows, &entries)?, around, rods, values, rows })
     }
 
+    /// The projector in `slot`, and whether it was made anew because there was none or it was
+    /// for other equations.
+    ///
+    /// # Errors
+    /// [`LinalgError::TooLarge`] when memory does not suffice.
+    pub fn for_equations<'a>(
+        slot: &'a mut Option<Self>,
+        rods: usize,
+        equations: &Equations,
+    ) -> Result<(&'a mut Self, bool), LinalgError> {
+        match slot.take().filter(|known| known.suits(equations)) {
+            Some(known) => Ok((slot.insert(known), false)),
+            None => Ok((slot.insert(Self::new(rods, equations)?), true)),
+        }
+    }
+
     /// Whether these equations look at the same rods as those that were analysed.
-    pub fn suits(&self, equations: &Equations) -> bool {
+    fn suits(&self, equations: &Equations) -> bool {
         self.rods.len() == equations.parts().len()
             && self.rows == equations.len()
             && self.rods.iter().zip(equations.parts()).all(|(rod, part)| *rod == part.0)
@@ -79,9 +95,12 @@ impl Projector {
         self.solver.factor(&self.values)
     }
 
-    /// (J Jᵀ + S)⁻¹ r.
-    pub fn solve(&mut self, mut lacking: Vec<f64>) -> Vec<f64> {
-        self.solver.solve(&mut lacking);
-        lacking
+    /// The least moves, and (J Jᵀ + S)⁻¹ r: the pull of each row.
+    pub fn least_moves(&mut self, equations: &Equations) -> (Moves, Vec<f64>) {
+        let mut pull = equations.lacking.clone();
+        self.solver.solve(&mut pull);
+        let mut moves: Moves = vec![Move::zeros(); self.around.len()].into();
+        equations.pull(&pull, 1.0, &mut moves);
+        (moves, pull)
     }
 }

@@ -5,14 +5,19 @@
 //! edges, with F1 the errors of the gaps and Δ the moves of the rod ends: one sparse
 //! Cholesky factorisation in four unknowns a rod. The paper takes C = 500 and ε = 1, and
 //! creeps. With C ten times larger contacts come near at once, and with ε smaller after
-//! every good step units find their shape in a few; the projection then finishes what is
-//! left. Steps end when the units are shaped no worse than they were, or rods would have to
-//! move too far for more.
+//! every good step units find their shape in a few. Steps end when the units are shaped no
+//! worse than they were, or rods would have to move too far for more.
+//!
+//! Gaps bend where rods turn, so that a long step opens the contacts that it closed to first
+//! order. A projection after each step, which costs a fifth of it, takes that back (the
+//! second-order correction of Nocedal and Wright, *Numerical Optimization*, section 18.3);
+//! without it large frames creep in steps of an eighth.
 
 use super::across::{Across, Bases};
 use super::bounds::{Bound, Bounds};
 use super::equations::{Equations, Moves, longest, moved};
 use super::exact::release;
+use super::projector::Projector;
 use super::shape::{UnitTerms, energy};
 use super::{CloseError, Task, gap_rows};
 use crate::frame::axis::Axis;
@@ -35,15 +40,35 @@ pub struct Weighing {
     steps: usize,
     /// Steps end when one takes off less than this part of C F1² + E.
     settled: f64,
+    /// Whether steps are corrected to second order.
+    corrected: bool,
 }
 
-/// Contacts as good as firm. They only need to come near: the steps stop early.
-pub const FIRM: Weighing =
-    Weighing { contacts: 5e3, fidelity: 1.0, easing: 4.0, steps: 5, settled: 0.03 };
+impl Weighing {
+    /// Contacts as good as firm, moves small: for rods that are to stay near where they are.
+    pub const NEAR: Self = Self {
+        contacts: 5e3,
+        fidelity: 1.0,
+        easing: 4.0,
+        steps: 5,
+        settled: 0.03,
+        corrected: true,
+    };
 
-/// The paper's weights, to stillness.
-pub const PAPER: Weighing =
-    Weighing { contacts: 500.0, fidelity: 1.0, easing: 1.0, steps: 60, settled: 1e-6 };
+    /// The same for rods that may go anywhere.
+    pub const FREE: Self =
+        Self { fidelity: 1e-3, easing: 10.0, steps: 10, settled: 0.01, ..Self::NEAR };
+
+    /// The paper's weights, to stillness.
+    pub const PAPER: Self = Self {
+        contacts: 500.0,
+        fidelity: 1.0,
+        easing: 1.0,
+        steps: 60,
+        settled: 1e-6,
+        corrected: false,
+    };
+}
 
 /// A step that is shortened less than this was good.
 const WHOLE: f64 = 0.9;
@@ -72,10 +97,11 @@ pub fn settle(
     task: &Task,
     weighing: &Weighing,
     held: &mut BTreeSet<Bound>,
+    projector: &mut Option<Projector>,
 ) -> Result<usize, CloseError> {
     let mut rows = gap_rows(axes, task.joints)?;
     let bounds = task.bounds(axes, &rows);
-    let mut system = System { weighing: *weighing, solver: None };
+    let mut system = System { weighing: *weighing, solver: None, projector };
     let start = axes.clone();
     let wanted = task.energy(axes);
     let mut now = system.measure(axes, &rows, task);
@@ -92,9 +118,9 @@ pub fn settle(
         if task.roam.is_some_and(|roam| mean_move(&start, &tried.axes) > roam) {
             return Ok(step);
         }
-        let slow = now - tried.measure < weighing.settled * now;
+        let slow = tried.part >= WHOLE && now - tried.measure < weighing.settled * now;
         (*axes, rows, now) = (tried.axes, tried.rows, tried.measure);
-        if slow || step > 0 && weighing.easing > 1.0 && task.energy(axes).is_within(&wanted) {
+        if slow || weighing.corrected && task.energy(axes).is_within(&wanted) {
             return Ok(step + 1);
         }
     }
@@ -117,12 +143,13 @@ struct Tried {
 }
 
 /// The system of a step.
-struct System {
+struct System<'a> {
     weighing: Weighing,
     solver: Option<BlockSolver<{ Across::WAYS }>>,
+    projector: &'a mut Option<Projector>,
 }
 
-impl System {
+impl System<'_> {
     /// C F1² + E: what steps have to lower.
     fn measure(&self, axes: &IdVec<RodId, Axis>, rows: &[Row], task: &Task) -> f64 {
         let open: f64 = rows.iter().map(|row| ((row.wanted - row.gap) / task.edge).powi(2)).sum();
@@ -131,7 +158,7 @@ impl System {
 
     /// A step, shortened until it lowers the measure; nothing where none does.
     fn shortened(
-        &self,
+        &mut self,
         axes: &IdVec<RodId, Axis>,
         moves: &Moves,
         task: &Task,
@@ -140,11 +167,27 @@ impl System {
         let whole = (LONGEST_MOVE * task.edge / longest(moves)).min(1.0);
         (0..=HALVINGS).find_map(|halved| {
             let part = whole / f64::from(1 << halved);
-            let axes = moved(axes, moves, part);
-            let rows = gap_rows(&axes, task.joints).ok()?;
+            let mut axes = moved(axes, moves, part);
+            let mut rows = gap_rows(&axes, task.joints).ok()?;
+            if self.weighing.corrected {
+                let by = self.correction(&rows, axes.len()).ok()?;
+                // A longer one is no correction: the step was too long.
+                if longest(&by) < LONGEST_MOVE * task.edge {
+                    axes = moved(&axes, &by, 1.0);
+                    rows = gap_rows(&axes, task.joints).ok()?;
+                }
+            }
             let measure = self.measure(&axes, &rows, task);
             (measure < now).then_some(Tried { axes, rows, measure, part })
         })
+    }
+
+    /// The least move that closes the contacts to first order.
+    fn correction(&mut self, rows: &[Row], rods: usize) -> Result<Moves, LinalgError> {
+        let equations = Equations::of_contacts(rows);
+        let (projector, _) = Projector::for_equations(self.projector, rods, &equations)?;
+        projector.factor(&equations, |_| 0.0)?;
+        Ok(projector.least_moves(&equations).0)
     }
 
     /// The move of a Gauss-Newton step; bounds that would pull are let go.

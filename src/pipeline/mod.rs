@@ -1,10 +1,15 @@
 //! The whole way, from a design to a finished model. Read this first; what is then
 //! drawn and written of the model stands in [`documents`](crate::documents).
 
-use crate::chart::{ChartError, PlanarChart, Uneven};
+mod error;
+mod smaller;
+
+pub use error::{BuildError, UNEVEN_ADVICE};
+
+use crate::chart::PlanarChart;
 use crate::design::{Design, Sphere, Tiles};
-use crate::frame::canvas::{Canvas, MeshTiles, PlaneCanvas, PlaneError, SphereTiles};
-use crate::frame::fit::{Fit, FitBy, FitError, fit};
+use crate::frame::canvas::{Canvas, MeshTiles, PlaneCanvas, SphereTiles};
+use crate::frame::fit::{Fit, FitBy, fit};
 use crate::frame::fit_turn::{fit_turn, safe_turns, safe_turns_of_slid};
 use crate::frame::footprint::{Footprint, footprint};
 use crate::frame::form::{FormError, FormSettings, Formed, form, median_rise};
@@ -12,14 +17,14 @@ use crate::frame::guide::Guide;
 use crate::frame::measure::{Measures, measure};
 use crate::frame::relax::{Relax, Relaxing, relax};
 use crate::pattern::{Pattern, Shape};
-use crate::shop::cutlist::{CutError, CutPlan, Stock, plan};
+use crate::shop::cutlist::{CutPlan, Stock, plan};
 use crate::shop::lengths::sticks;
-use crate::surface::prepare::{PrepareError, Prepared, prepare, prepare_polygons};
-use crate::surface::read::{ReadError, read, read_polygons};
-use crate::surface::topology::{TopologyError, require_chartable};
+use crate::surface::prepare::{Prepared, prepare, prepare_polygons};
+use crate::surface::read::{read, read_polygons};
+use crate::surface::topology::require_chartable;
 use crate::tiling::Placement;
-use crate::tiling::midsphere::{MidsphereError, midsphere};
-use thiserror::Error;
+use crate::tiling::midsphere::midsphere;
+use smaller::smaller_while_better;
 
 /// A finished model: the frame and everything that was found on the way.
 #[derive(Debug)]
@@ -125,24 +130,40 @@ pub fn lay(
 fn in_plane(
     design: &Design,
     pattern: &Pattern,
-    Flat { chart, notes }: &Flat,
+    flat: &Flat,
     begin: &mut dyn FnMut(Step),
 ) -> Result<Model, BuildError> {
     begin(Step::Fit);
+    let chart = &flat.chart;
     let usual = pattern.usual();
     let shape = Shape { turn: design.turn.unwrap_or(usual.turn), slide: design.slide };
     let place = |edge| Placement { origin: design.origin.into(), rotation: design.rotate, edge };
-    let (canvas, fit) = match design.unit {
-        None => {
-            let fit = fit(chart, pattern, &place(design.rod), shape, design.rod)?;
-            (PlaneCanvas::new(chart, pattern, place(fit.edge), shape)?, fit)
-        }
-        Some(edge) => {
-            let canvas = PlaneCanvas::new(chart, pattern, place(edge), shape)?;
-            let fit = as_given(&canvas, shape.turn);
-            (canvas, fit)
-        }
+    let canvas = |edge| PlaneCanvas::new(chart, pattern, place(edge), shape);
+    let Some(edge) = design.unit else {
+        let fit = fit(chart, pattern, &place(design.rod), shape, design.rod)?;
+        return smaller_while_better(fit, design.rod, |fit| {
+            let canvas = canvas(fit.edge)?;
+            let fit = match fit.by {
+                FitBy::Smaller => Fit { by: fit.by, ..as_given(&canvas, fit.turn) },
+                _ => fit,
+            };
+            on_plane(design, pattern, flat, canvas, fit, begin)
+        });
     };
+    let canvas = canvas(edge)?;
+    let fit = as_given(&canvas, shape.turn);
+    on_plane(design, pattern, flat, canvas, fit, begin)
+}
+
+/// Everything after the size of the units is chosen.
+fn on_plane<'a>(
+    design: &Design,
+    pattern: &Pattern,
+    Flat { chart, notes }: &'a Flat,
+    canvas: PlaneCanvas<'a, PlanarChart>,
+    fit: Fit,
+    begin: &mut dyn FnMut(Step),
+) -> Result<Model, BuildError> {
     let mesh = chart.mesh();
     let form_on = |canvas: &PlaneCanvas<_>, fit, begin: &mut dyn FnMut(Step)| {
         let guide = Guide::Chart { mesh: mesh.clone(), distortion: chart.distortion().clone() };
@@ -249,11 +270,15 @@ fn finish(
 }
 
 /// Where units fail whose size and turn could not be fitted to the rods, says which rods
-/// would suit them.
-fn unsuited(e: FormError, fit: &Fit) -> BuildError {
+/// would suit them; where they were fitted, no longer says to fit them.
+fn unsuited(mut e: FormError, fit: &Fit) -> BuildError {
+    if let FormError::TooManyDropped { fitting, .. } = &mut e {
+        *fitting = fitting.filter(|_| fit.by == FitBy::Given);
+    }
     match e {
         FormError::TooManyDropped { diameter, .. }
-            if !(1.0 / SUITING..=SUITING).contains(&(fit.rise / diameter)) =>
+            if !fit.is_flat(diameter)
+                && !(1.0 / SUITING..=SUITING).contains(&(fit.rise / diameter)) =>
         {
             BuildError::Unsuited { e, suits: fit.rise }
         }
@@ -312,92 +337,3 @@ fn sawing_plan(design: &Design, formed: &Formed) -> Result<CutPlan, BuildError> 
 
 /// Sticks are sold by the metre, mm.
 const METRE: f64 = 1000.0;
-
-/// Why there is no model.
-#[derive(Error, Debug)]
-pub enum BuildError {
-    /// The surface file.
-    #[error("{0}. {hint}", hint = sentence(.0.hint()))]
-    Read(#[from] ReadError),
-    /// The surface, on the way to its place.
-    #[error("{0}{hint}", hint = advice(&.0.to_string(), &.0.hint()))]
-    Prepare(#[from] PrepareError),
-    /// The surface's shape.
-    #[error("{0}{hint}", hint = advice(&.0.to_string(), &.0.hint()))]
-    Topology(#[from] TopologyError),
-    /// The polyhedron.
-    #[error(transparent)]
-    Midsphere(#[from] MidsphereError),
-    /// A sphere that is cut away whole, or not at all.
-    #[error(
-        "the cut at z = {at:.1} mm passes by the sphere, which reaches from {} to {radius} mm. \
-         Cut between these heights, or at a share of them such as --cut z=40%", -radius
-    )]
-    CutPastSphere {
-        /// Height of the cut, mm.
-        at: f64,
-        /// Radius of the sphere, mm.
-        radius: f64,
-    },
-    /// Rods turned too little or too far for the tiles, in degrees.
-    #[error(
-        "turn = {turn:.1}deg: with these tiles the frame holds together between {least:.0} and \
-         {most:.0} degrees, either way round. Leave --turn out to let it be fitted to the rods"
-    )]
-    Turn { turn: f64, least: f64, most: f64 },
-    /// Rods that slide where tiles do not alternate.
-    #[error(
-        "slide = {slide}: rods slide where tiles alternate like the fields of a chessboard, with \
-         an even number of them round every corner. That is not so here: leave --slide out"
-    )]
-    Alternate { slide: f64 },
-    /// Rods that slide too little or too far.
-    #[error(
-        "slide = {slide}: with these tiles it leaves no room for the rods. Try another, such as \
-         0.2 or -0.2, or thinner rods (--rod)"
-    )]
-    Slide { slide: f64 },
-    /// The chart.
-    #[error(transparent)]
-    Chart(#[from] ChartError),
-    /// The tile edge.
-    #[error(transparent)]
-    Fit(#[from] FitError),
-    /// The pattern on the chart.
-    #[error(transparent)]
-    Plane(#[from] PlaneError),
-    /// The frame.
-    #[error(transparent)]
-    Form(#[from] FormError),
-    /// Any of these, on a surface that is far from even when laid flat.
-    #[error("{e}. When the surface is laid flat, {uneven}: {UNEVEN_ADVICE}")]
-    Uneven { e: Box<BuildError>, uneven: Uneven },
-    /// The frame, with rods that do not suit its units.
-    #[error("{e}. Rods of {suits:.1} mm (--rod) would suit these units best")]
-    Unsuited { e: FormError, suits: f64 },
-    /// The sawing plan.
-    #[error("{0}. {hint}", hint = sentence(&.0.hint()))]
-    Cut(#[from] CutError),
-}
-
-/// What to do about units of very different size.
-pub const UNEVEN_ADVICE: &str = "cut the surface (--cut), or use its own polygons (--pattern mesh)";
-
-/// A hint after a message: in its line, or below where the message ends in a table.
-fn advice(message: &str, hint: &str) -> String {
-    let between = if message.contains('\n') { "\n" } else { ". " };
-    format!("{between}{}", sentence(hint))
-}
-
-/// A hint as a sentence of its own.
-fn sentence(hint: &str) -> String {
-    let mut letters = hint.chars();
-    letters.next().map_or_else(String::new, |c| c.to_uppercase().chain(letters).collect())
-}
-
-impl BuildError {
-    /// Whether a file that cannot be read, not what it holds, is at fault.
-    pub fn is_io(&self) -> bool {
-        matches!(self, Self::Read(e) if e.is_io())
-    }
-}
