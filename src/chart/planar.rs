@@ -126,12 +126,17 @@ fn aligned(mesh: &Mesh, flat: &[Point2<f64>]) -> Vec<Point2<f64>> {
         }
     }
     let (middle, center) = (middle / area, Point3::from(center / area));
+    // The integrals of p·q and p×q over the surface: of two linear functions f and g over a
+    // triangle of area A it is A/12 (Σ fᵢgᵢ + Σ fᵢ Σ gᵢ).
     let (mut dot, mut cross) = (0.0, 0.0);
-    for v in mesh.points.ids() {
-        let p = flat[v.index()].coords - middle;
-        let q = (mesh.points[v] - center).xy();
-        dot += p.dot(&q);
-        cross += p.perp(&q);
+    for f in mesh.triangles.ids() {
+        let weight = mesh.area_vector(f).norm();
+        let p = mesh.triangles[f].map(|v| flat[v.index()].coords - middle);
+        let q = mesh.corners(f).map(|c| (c - center).xy());
+        for (p, q) in p.into_iter().zip(q).chain([(p.iter().sum(), q.iter().sum())]) {
+            dot += weight * p.dot(&q);
+            cross += weight * p.perp(&q);
+        }
     }
     let turn = Rotation2::new(cross.atan2(dot));
     let scale = long / short;

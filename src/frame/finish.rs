@@ -19,6 +19,7 @@ use super::weave::{RodEnd, Weave, WovenContact, WovenRod};
 use super::{ContactKind, Frame};
 use crate::ids::{ContactId, IdVec, RodId};
 use crate::linalg::LinalgError;
+use crate::surface::Point3;
 use std::collections::BTreeSet;
 
 /// Least distance between two contacts along a rod, in diameters. Nearer, and
@@ -63,7 +64,9 @@ pub fn finish(
         Err(c) => return Ok(Err(vec![open_contact(weave, c)])),
     };
     let joints = joints(weave, &over, &gaps);
-    let start = Start { weave, lifted: &lifted.axes, joints, how, round, edge, diameter };
+    let lifted_middles = lifted.middles(weave);
+    let middles = &lifted_middles;
+    let start = Start { weave, lifted: &lifted.axes, middles, joints, how, round, edge, diameter };
     Ok(start.best(settings.way)?.map(|Closed { frame, closing, moves }| Formed {
         frame,
         tiles: weave.units.iter().map(|unit| unit.tile).collect(),
@@ -71,7 +74,7 @@ pub fn finish(
         moves,
         ending_over: over,
         rises,
-        lifted_middles: lifted.middles(weave),
+        lifted_middles,
     }))
 }
 
@@ -79,6 +82,8 @@ pub fn finish(
 struct Start<'a> {
     weave: &'a Weave,
     lifted: &'a IdVec<RodId, Axis>,
+    /// The contacts as lifted, mm.
+    middles: &'a IdVec<ContactId, Point3>,
     joints: IdVec<ContactId, Joint>,
     how: Trimming<'a>,
     round: f64,
@@ -135,7 +140,7 @@ impl Start<'_> {
         mut way: Way,
     ) -> Result<Result<(Closing, Trimmed), Vec<Fault>>, LinalgError> {
         let weave = self.weave;
-        let (circuits, limits) = (circuits(weave), self.limits());
+        let (circuits, limits) = (circuits(weave, self.middles), self.limits());
         let mut lengths = Lengths::new(self.round);
         let mut unsettled = Vec::new();
         let mut first = None;

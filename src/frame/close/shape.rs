@@ -29,7 +29,8 @@ use serde::Serialize;
 pub struct Circuit {
     /// Its corners, in order.
     pub contacts: Vec<ContactId>,
-    /// The place of the surface where its middle belongs, mm, and n, the unit normal there.
+    /// The place of the surface where its middle belongs, mm, and n, the unit vector that is
+    /// up there.
     pub place: SurfacePoint,
     /// cos θ⁰ at each corner.
     pub cosines: Vec<f64>,
