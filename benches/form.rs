@@ -16,6 +16,7 @@ use rodwright::frame::close::{Way, project};
 use rodwright::frame::form::{FormSettings, form, median_rise};
 use rodwright::frame::gaps::Joint;
 use rodwright::frame::layer::Layering;
+use rodwright::frame::share::Share;
 use rodwright::frame::{
     crop::{crop, held},
     lift::lift,
@@ -132,6 +133,7 @@ fn row(rods: f64, paper: Option<f64>, last: Option<(f64, f64)>) -> (f64, f64) {
         diameter,
         overhang: 2.0 * diameter,
         round: 1e-3 * canvas.edge(),
+        share: Share::Off,
         layering: Layering::Auto,
         way: Way::default(),
         surface_low: 0.0,

@@ -4,6 +4,7 @@ use crate::design::{Design, Part};
 use crate::drawing::pdf::{self, DocumentInfo, Page};
 use crate::drawing::{DrawingError, svg};
 use crate::frame::arrangement::arrangement;
+use crate::frame::share::Shared;
 use crate::pipeline::Model;
 use crate::sheets::{
     Sheet, SheetError, SheetSettings, footprint, histogram_pairs, histograms, relaxing_pairs,
@@ -41,7 +42,7 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
         files.add("supports.csv", tables::supports(frame)?);
     }
     if design.wants(Part::Cutlist) {
-        files.add("cutlist.json", cutlist_json(&model.plan)?);
+        files.add("cutlist.json", cutlist_json(&model.plan, design.density)?);
         files.add("cutlist.csv", cutlist_csv(&model.plan, &classes)?);
     }
     if design.wants(Part::Glb) {
@@ -92,7 +93,8 @@ fn report(design: &Design, model: &Model) -> Report {
         measures: model.measures.clone(),
         arrangement,
         tied,
-        sawing: report::sawing(&model.plan),
+        sawing: report::sawing(&model.plan, design.density),
+        shared_lengths: model.formed.shared.as_ref().map(report::shared),
         dropped: report::dropped(&model.formed.frame),
     }
 }
@@ -120,11 +122,17 @@ fn sheet_settings(design: &Design, model: &Model) -> SheetSettings {
     let pattern = format!("pattern {}: {}", design.tiles.name(), design.tiles.summary());
     let edge = design.units.measure(model.fit.edge);
     let unit = format!("rods turned by {:.1}°, tile edge {edge}", model.fit.turn.to_degrees());
+    let mut notes = vec![pattern, unit];
+    notes.extend(model.formed.shared.as_ref().map(|shared| {
+        let Shared { before, after, extra, .. } = *shared;
+        format!("{after} lengths in place of {before}, for {} more rod", design.units.total(extra))
+    }));
     SheetSettings {
         model: design.name(),
         paper: design.paper,
         units: design.units,
-        notes: vec![pattern, unit],
+        density: design.density,
+        notes,
     }
 }
 

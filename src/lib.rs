@@ -20,6 +20,7 @@
 //! let edge = fit(&chart, pattern, &start, shape, rod)?.edge;
 //! let settings = FormSettings {
 //!     diameter: rod, sizes: Default::default(), overhang: 6.0, round: 0.5,
+//!     share: Default::default(),
 //!     layering: Layering::Auto, way: Way::default(), surface_low: 0.0,
 //! };
 //! let canvas = PlaneCanvas::new(&chart, pattern, Placement { edge, ..start }, shape)?;

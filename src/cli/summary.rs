@@ -5,9 +5,10 @@ use crate::design::Design;
 use crate::frame::Frame;
 use crate::frame::arrangement::arrangement;
 use crate::frame::fit::FitBy;
+use crate::frame::share::Shared;
 use crate::pipeline::Model;
-use crate::shop::Purchase;
 use crate::shop::lengths::diameters;
+use crate::shop::{Aim, CutPlan, Purchase};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -15,13 +16,6 @@ use std::path::Path;
 pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) -> String {
     let m = &model.measures;
     let plan = &model.plan;
-    let mixed = plan.is_mixed();
-    let of = |p: &Purchase| {
-        if mixed { format!(" of Ø {}", diameter(p.diameters)) } else { String::new() }
-    };
-    let buy: Vec<String> =
-        plan.shopping().iter().map(|p| format!("{} × {} mm{}", p.count, p.length, of(p))).collect();
-    let optimal = if plan.is_proven() { "fewest possible" } else { "good, perhaps not the fewest" };
     let [lo, hi] = model.formed.frame.bounds();
     let size = hi - lo;
     let rows = [
@@ -37,7 +31,7 @@ pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) 
                 m.total_length / 1e3
             ),
         ),
-        ("to buy", format!("{}, {:.1} % waste ({optimal})", buy.join(" + "), 100.0 * plan.waste())),
+        ("to buy", to_buy(plan)),
         ("contacts", format!("{}, worst error {:.1e} of the diameter", m.contacts, m.worst_gap)),
         ("to be tied", to_be_tied(model)),
         ("on the ground", format!("{} rods", m.supports)),
@@ -48,16 +42,63 @@ pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) 
         ),
         ("left out", left_out(model)),
     ];
+    let shared = model.formed.shared.as_ref().map(|s| ("shared lengths", shared(s)));
     let mut text = String::new();
     let title = format!("{}: {} reciprocal frame", design.name(), design.tiles.name());
     writeln!(text, "{}", terminal.bold(&title)).expect("writing to a string cannot fail");
-    for (label, value) in rows {
+    let [rods, size, lengths, rest @ ..] = rows;
+    for (label, value) in [rods, size, lengths].into_iter().chain(shared).chain(rest) {
         writeln!(text, "  {label:<16} {value}").expect("writing to a string cannot fail");
     }
     let end = format!("  {:<16} {}", "written to", out.display());
     writeln!(text, "{end}").expect("writing to a string cannot fail");
     text
 }
+
+/// What to buy, and whether that is the least.
+fn to_buy(plan: &CutPlan) -> String {
+    let of = |p: &Purchase| {
+        if plan.is_mixed() { format!(" of Ø {}", diameter(p.diameters)) } else { String::new() }
+    };
+    let list = |bars: &[Purchase]| {
+        let one = |p: &Purchase| format!("{} × {} mm{}", p.count, p.length, of(p));
+        bars.iter().map(one).collect::<Vec<_>>().join(" + ")
+    };
+    let (buy, taken) = (plan.shopping(), plan.taken());
+    let mut text = if buy.is_empty() { "nothing".into() } else { list(&buy) };
+    if !taken.is_empty() {
+        text += &format!(" and the offcuts {}", list(&taken));
+    }
+    let (best, least) = match plan.aim {
+        Aim::Bars => ("fewest possible", format!("at least {} bars", plan.least)),
+        Aim::Length => ("least possible", format!("at least {} m", plan.least / 1e3)),
+        Aim::Cost => ("cheapest possible", format!("at least {:.2}", plan.least)),
+    };
+    let best = if plan.is_proven() { best.into() } else { format!("good; {least} in any plan") };
+    if let Some(cost) = plan.cost() {
+        text += &format!(", cost {cost:.2}");
+    }
+    format!("{text}, {:.1} % waste ({best})", 100.0 * plan.waste())
+}
+
+/// How many lengths rods have that share them.
+fn shared(shared: &Shared) -> String {
+    let Shared { before, after, extra, own } = shared;
+    let names: Vec<String> = own.iter().take(NAMED).map(ToString::to_string).collect();
+    let alone = match own.len() {
+        0 => String::new(),
+        n => format!(
+            "; {}{} kept {} own, having no room for more",
+            names.join(", "),
+            if n > NAMED { format!(" and {} more", n - NAMED) } else { String::new() },
+            if n == 1 { "its" } else { "their" }
+        ),
+    };
+    format!("{after} in place of {before}, for {:.2} m more rod{alone}", extra / 1e3)
+}
+
+/// How many rods are named before the rest is only counted.
+const NAMED: usize = 5;
 
 /// How many rods there are of each diameter.
 pub fn rods(frame: &Frame) -> String {

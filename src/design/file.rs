@@ -2,6 +2,7 @@
 
 use super::{Design, Tiles};
 use crate::frame::fit::Fit;
+use crate::frame::share::Share;
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -18,14 +19,7 @@ impl Design {
         file.set("overhang", mm(self.overhang));
         file.set("layer", choice(self.layer));
         file.set("close", choice(self.close));
-        if self.stock.is_empty() {
-            let lengths: Vec<String> = found_stock.iter().map(|&l| mm(l)).collect();
-            file.note(&format!("stock was chosen to hold the longest rod: {}", lengths.join(", ")));
-        } else {
-            file.set("stock", self.stock.iter().map(|&l| mm(l)).collect::<Vec<_>>());
-        }
-        file.set("kerf", mm(self.kerf));
-        file.set("round", mm(self.round));
+        self.stock_settings(&mut file, found_stock);
         file.set("paper", self.paper.to_string());
         file.set("units", choice(self.units));
         if let Some(only) = &self.given.only {
@@ -34,6 +28,37 @@ impl Design {
         // What follows a table belongs to it, so it comes last.
         self.rod_table(&mut file);
         file.text
+    }
+
+    /// What rods are sawn from, and to.
+    fn stock_settings(&self, file: &mut TomlFile, found: &[f64]) {
+        match &self.given.stock {
+            Some(stock) => {
+                file.set("stock", stock.iter().map(ToString::to_string).collect::<Vec<_>>());
+            }
+            None => {
+                let lengths: Vec<String> = found.iter().map(|&l| mm(l)).collect();
+                file.note(&format!(
+                    "stock was chosen to hold the longest rod: {}",
+                    lengths.join(", ")
+                ));
+            }
+        }
+        if let Some(offcuts) = &self.given.offcuts {
+            file.set("offcuts", offcuts.iter().map(ToString::to_string).collect::<Vec<_>>());
+        }
+        if let Some(keep) = self.stock.keep {
+            file.set("keep", mm(keep));
+        }
+        file.set("kerf", mm(self.stock.kerf));
+        file.set("trim", mm(self.stock.trim));
+        file.set("density", self.density);
+        file.set("round", mm(self.round));
+        match self.share {
+            Share::Off => {}
+            Share::Classes(n) => file.set("classes", n as i64),
+            Share::Tolerance(tolerance) => file.set("class_tolerance", mm(tolerance)),
+        }
     }
 
     /// The rods, where they have several diameters.

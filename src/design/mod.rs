@@ -8,18 +8,22 @@ mod file;
 mod resolve;
 mod rod;
 mod settings;
+mod stock;
 
 pub use resolve::Folders;
 pub use rod::RodSetting;
 pub use settings::Settings;
+pub use stock::{OffcutItem, StockItem};
 
 use crate::chart::Method;
 use crate::frame::close::Way;
 use crate::frame::layer::Layering;
 use crate::frame::relax::Relax;
+use crate::frame::share::Share;
 use crate::frame::sizes::SizeTable;
 use crate::pattern::{Pattern, PatternError, ShapeError};
 use crate::sheets::{Paper, PaperUnits};
+use crate::shop::Stock;
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
 use crate::surface::up::Up;
@@ -150,12 +154,14 @@ pub struct Design {
     pub close: Way,
     /// The file's up axis, if given.
     pub up: Option<Up>,
-    /// Stock lengths; empty to choose one.
-    pub stock: Vec<f64>,
-    /// Saw cut.
-    pub kerf: f64,
+    /// What rods are sawn from, and how; without bars on sale to choose some.
+    pub stock: Stock,
+    /// Density of the rods, kg/m³.
+    pub density: f64,
     /// Step of cut lengths.
     pub round: f64,
+    /// How rods share lengths.
+    pub share: Share,
     /// Paper size.
     pub paper: Paper,
     /// Unit on paper.

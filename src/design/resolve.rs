@@ -1,7 +1,9 @@
 //! Fills in the defaults and checks every setting.
 
 use super::{ALL_PARTS, Design, DesignError, Part, SPHERE, Settings, Sphere, Tiles};
+use crate::frame::share::Share;
 use crate::pattern::{Pattern, Shape, library};
+use crate::shop::{Offer, Stock};
 use crate::tiling::conway::Notation;
 use crate::units::{Angle, Length};
 use std::path::{Path, PathBuf};
@@ -59,14 +61,53 @@ impl Settings {
             layer: self.layer.unwrap_or_default(),
             close: self.close.unwrap_or_default(),
             up: self.up,
-            stock: stock(self.stock.as_deref())?,
-            kerf: not_negative("kerf", self.kerf)?.unwrap_or(DEFAULT_KERF),
+            stock: self.stock(rod)?,
+            density: self.density()?,
+            share: self.share()?,
             round: not_negative("round", self.round)?.unwrap_or(DEFAULT_ROUND),
             paper: self.paper.unwrap_or_default(),
             units: self.units.unwrap_or_default(),
             only: self.only.clone().unwrap_or_else(|| ALL_PARTS.to_vec()),
             given: self,
         })
+    }
+
+    /// What rods are sawn from. Of rods of several diameters, offcuts are of the nominal one
+    /// if they do not say.
+    fn stock(&self, rod: f64) -> Result<Stock, DesignError> {
+        let several = self.rod.as_ref().is_some_and(|r| !r.sizes.is_empty());
+        let offcut =
+            |offer: Offer| Offer { diameter: offer.diameter.or(several.then_some(rod)), ..offer };
+        let offcuts = self.offcuts.iter().flatten().map(|item| offcut(item.0));
+        let sold = self.stock.iter().flatten().map(|item| item.0);
+        Ok(Stock {
+            bars: offcuts.chain(sold).collect(),
+            kerf: not_negative("kerf", self.kerf)?.unwrap_or(DEFAULT_KERF),
+            trim: not_negative("trim", self.trim)?.unwrap_or(0.0),
+            keep: positive("keep", self.keep)?,
+        })
+    }
+
+    fn density(&self) -> Result<f64, DesignError> {
+        let density = self.density.unwrap_or(DEFAULT_DENSITY);
+        if density > 0.0 && density.is_finite() {
+            return Ok(density);
+        }
+        Err(setting("density", density, "must be a number of kg/m³ above 0"))
+    }
+
+    fn share(&self) -> Result<Share, DesignError> {
+        let tolerance = not_negative("class_tolerance", self.class_tolerance)?;
+        match (self.classes, tolerance) {
+            (Some(_), Some(_)) => Err(DesignError::Idle {
+                key: "class_tolerance",
+                why: "classes says how many lengths",
+            }),
+            (Some(0), None) => Err(setting("classes", 0, "there is at least one length")),
+            (Some(n), None) => Ok(Share::Classes(n)),
+            (None, Some(tolerance)) => Ok(Share::Tolerance(tolerance)),
+            (None, None) => Ok(Share::Off),
+        }
     }
 
     /// What the units are made on, by the surface and the pattern asked for.
@@ -179,6 +220,9 @@ const LEAST_WARP: f64 = 0.3125;
 const DEFAULT_ROD: f64 = 3.0;
 /// Width of the cut of a fine saw, mm.
 const DEFAULT_KERF: f64 = 1.0;
+/// Density of the rods when none is given, kg/m³: most softwoods are of 450 to 650, beech
+/// and oak of 700.
+const DEFAULT_DENSITY: f64 = 600.0;
 /// Step of cut lengths, mm: what can be marked and sawn by hand.
 const DEFAULT_ROUND: f64 = 0.5;
 
@@ -214,9 +258,4 @@ fn origin(lengths: Option<&[Length]>) -> Result<[f64; 2], DesignError> {
             Err(setting("origin", format!("{} lengths", other.len()), "takes two, as in 10mm,-5mm"))
         }
     }
-}
-
-fn stock(lengths: Option<&[Length]>) -> Result<Vec<f64>, DesignError> {
-    let lengths = lengths.unwrap_or_default();
-    lengths.iter().map(|&l| positive("stock", Some(l)).map(|l| l.unwrap_or_default())).collect()
 }

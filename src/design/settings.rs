@@ -1,5 +1,6 @@
 //! The settings as given, on the command line or in design.toml.
 
+use super::stock::{OffcutItem, StockItem};
 use super::{DesignError, Part, RodSetting};
 use crate::chart::Method;
 use crate::frame::close::Way;
@@ -105,17 +106,42 @@ pub struct Settings {
     #[arg(long, value_name = "AXIS")]
     pub up: Option<Up>,
 
-    /// Lengths in which the sticks are sold [default: 1000mm, or enough whole metres]
-    #[arg(long, value_name = "LENGTH", value_delimiter = ',', num_args = 1)]
-    pub stock: Option<Vec<Length>>,
+    /// Lengths in which the sticks are sold, with the price of one and how many there are, as
+    /// in "1000mm @ 1.20, 2000mm @ 2.10 x 5" [default: 1000mm, or enough whole metres]
+    #[arg(long, value_name = "BARS", value_delimiter = ',', num_args = 1)]
+    pub stock: Option<Vec<StockItem>>,
+
+    /// Offcuts at hand, as in 430mm,2x610mm: they cost nothing [default: none]
+    #[arg(long, value_name = "BARS", value_delimiter = ',', num_args = 1)]
+    pub offcuts: Option<Vec<OffcutItem>>,
+
+    /// Shortest left-over that is kept and is no waste [default: all is waste]
+    #[arg(long, value_name = "LENGTH")]
+    pub keep: Option<Length>,
 
     /// Width of a saw cut [default: 1mm]
     #[arg(long, value_name = "LENGTH")]
     pub kerf: Option<Length>,
 
+    /// What is sawn off either end of a bar before it is used, cut and all [default: 0mm]
+    #[arg(long, value_name = "LENGTH")]
+    pub trim: Option<Length>,
+
+    /// Density of the sticks, kg/m³, for their weight [default: 600, a softwood]
+    #[arg(long, value_name = "NUMBER")]
+    pub density: Option<f64>,
+
     /// Cut lengths are multiples of this; 0 for exact ones [default: 0.5mm]
     #[arg(long, value_name = "LENGTH")]
     pub round: Option<Length>,
+
+    /// Rods share so many lengths: the overhang of some gets longer
+    #[arg(long, value_name = "NUMBER", conflicts_with = "class_tolerance")]
+    pub classes: Option<usize>,
+
+    /// Rods share as few lengths as they can when each gets longer by at most this
+    #[arg(long, value_name = "LENGTH")]
+    pub class_tolerance: Option<Length>,
 
     /// Paper: a4, a3, letter, tabloid, or width x height such as 300x200mm [default: a4]
     #[arg(long, value_name = "PAPER")]
@@ -146,6 +172,8 @@ impl Settings {
 
     /// These settings, with those of `other` where these say nothing.
     pub fn or(self, other: Self) -> Self {
+        // One of the two ways to share lengths takes the place of the other.
+        let shares = self.classes.is_some() || self.class_tolerance.is_some();
         Self {
             surface: self.surface.or(other.surface),
             rod: match (self.rod, other.rod) {
@@ -171,8 +199,14 @@ impl Settings {
             close: self.close.or(other.close),
             up: self.up.or(other.up),
             stock: self.stock.or(other.stock),
+            offcuts: self.offcuts.or(other.offcuts),
+            keep: self.keep.or(other.keep),
             kerf: self.kerf.or(other.kerf),
+            trim: self.trim.or(other.trim),
+            density: self.density.or(other.density),
             round: self.round.or(other.round),
+            classes: self.classes.or(other.classes.filter(|_| !shares)),
+            class_tolerance: self.class_tolerance.or(other.class_tolerance.filter(|_| !shares)),
             paper: self.paper.or(other.paper),
             units: self.units.or(other.units),
             only: self.only.or(other.only),

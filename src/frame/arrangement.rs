@@ -72,6 +72,7 @@ mod tests {
             diameter: 0.02,
             overhang: 0.05,
             round: 0.0,
+            share: crate::frame::share::Share::Off,
             layering,
             way: Way::default(),
             surface_low: -9.0,

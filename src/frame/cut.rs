@@ -105,13 +105,19 @@ pub fn cut(
     let from = first.map_or(0.0, |s| s.at) - beyond[0];
     let to = last.map_or(axis.length(), |s| s.at) + beyond[1];
     let extra = length(to - from) - (to - from);
-    let share = match ends {
+    let share = shares(ends, extra);
+    axis.between(from - share[0], to + share[1])
+}
+
+/// How an extra length goes to end A and end B: to both alike, but none to an end that meets
+/// another.
+pub fn shares(ends: [RodEnd; 2], extra: f64) -> [f64; 2] {
+    match ends {
         [RodEnd::Meets, RodEnd::Meets] => [0.0, 0.0],
         [RodEnd::Meets, _] => [0.0, extra],
         [_, RodEnd::Meets] => [extra, 0.0],
         _ => [extra / 2.0; 2],
-    };
-    axis.between(from - share[0], to + share[1])
+    }
 }
 
 /// A length this little above a multiple of the rounding step, in steps, counts as

@@ -13,6 +13,7 @@ use super::formed::{FormSettings, Formed};
 use super::gaps::Joint;
 use super::layer::layer;
 use super::lift::{Lifted, Parallel, lift};
+use super::share::{Share, Shared, share};
 use super::sizes::{Sizes, gap_between};
 use super::trim::{Lengths, Trimmed, Trimming, trim};
 use super::weave::{RodEnd, Weave, WovenContact, WovenRod};
@@ -65,10 +66,11 @@ pub fn finish(
     };
     let joints = joints(weave, &over, &gaps);
     let lifted_middles = lifted.middles(weave);
-    let middles = &lifted_middles;
-    let start = Start { weave, lifted: &lifted.axes, middles, joints, how, round, edge, diameter };
-    Ok(start.best(settings.way)?.map(|Closed { frame, closing, moves }| Formed {
+    let (axes, middles, share) = (&lifted.axes, &lifted_middles, settings.share);
+    let start = Start { weave, lifted: axes, middles, joints, how, round, share, edge, diameter };
+    Ok(start.best(settings.way)?.map(|Closed { frame, shared, closing, moves }| Formed {
         frame,
+        shared,
         tiles: weave.units.iter().map(|unit| unit.tile).collect(),
         closing,
         moves,
@@ -87,6 +89,7 @@ struct Start<'a> {
     joints: IdVec<ContactId, Joint>,
     how: Trimming<'a>,
     round: f64,
+    share: Share,
     edge: f64,
     diameter: f64,
 }
@@ -94,6 +97,7 @@ struct Start<'a> {
 /// A frame that is closed and cut.
 struct Closed {
     frame: Frame,
+    shared: Option<Shared>,
     closing: Closing,
     /// How far rod ends moved, mm.
     moves: Vec<f64>,
@@ -127,8 +131,8 @@ impl Start<'_> {
             .zip(axes.iter())
             .flat_map(|(old, new)| [(new.a - old.a).norm(), (new.b - old.b).norm()])
             .collect();
-        let frame = checked(self.weave, trimmed, &joints, self.how.sizes);
-        Ok(frame.map(|frame| Closed { frame, closing, moves }))
+        let made = checked(self.weave, trimmed, &joints, self.how.sizes, self.share);
+        Ok(made.map(|(frame, shared)| Closed { frame, shared, closing, moves }))
     }
 
     /// Closes the axes and cuts them to length; where rods taper, again until every gap is
@@ -245,29 +249,33 @@ fn joints(
         .collect()
 }
 
-/// Checks the rods and puts the frame together.
+/// Checks the rods, lets them share lengths, and puts the frame together.
 fn checked(
     weave: &Weave,
-    trimmed: Trimmed,
+    mut trimmed: Trimmed,
     joints: &IdVec<ContactId, Joint>,
     sizes: &Sizes,
-) -> Result<Frame, Vec<Fault>> {
-    let Trimmed { along, cut, axes, diameters, ground, supports } = trimmed;
+    how: Share,
+) -> Result<(Frame, Option<Shared>), Vec<Fault>> {
+    let Trimmed { along, cut, diameters, .. } = &trimmed;
     // The rods that lie beside each other on a rod have to have room there.
     let beside = |rod, c: ContactId| diameters[c][usize::from(joints[c].over == rod)];
     let room = |rod, pair: [ContactId; 2]| ENGAGEMENT * gap_between(pair.map(|c| beside(rod, c)));
-    let faults = disorder(weave, &along, room);
+    let faults = disorder(weave, along, room);
     if !faults.is_empty() {
         return Err(faults);
     }
     let pairs: BTreeSet<[RodId; 2]> =
         joints.iter().map(|j| [j.over.min(j.under), j.over.max(j.under)]).collect();
-    let faults = clash_faults(weave, &cut, &sizes.ends, &pairs);
+    let faults = clash_faults(weave, cut, &sizes.ends, &pairs);
     if !faults.is_empty() {
         return Err(faults);
     }
+    let shared = share(how, weave, &mut trimmed, &sizes.ends, &pairs);
+    let Trimmed { axes, ground, supports, .. } = trimmed;
     let on = Ground { sizes: sizes.clone(), ground, supports };
-    assemble(weave, &axes, joints, on).map_err(|fault| vec![fault])
+    let frame = assemble(weave, &axes, joints, on).map_err(|fault| vec![fault])?;
+    Ok((frame, shared))
 }
 
 fn clash_faults(

@@ -134,6 +134,7 @@ mod tests {
             diameter: 3.0,
             overhang: 6.0,
             round: 0.5,
+            share: crate::frame::share::Share::Off,
             layering: Default::default(),
             way: crate::frame::close::Way::default(),
             surface_low: 0.0,

@@ -3,6 +3,7 @@
 use super::Frame;
 use super::close::{Closing, Way};
 use super::layer::Layering;
+use super::share::{Share, Shared};
 use super::sizes::SizeTable;
 use crate::ids::{ContactId, IdVec, TileId, UnitId};
 use crate::surface::Point3;
@@ -18,6 +19,8 @@ pub struct FormSettings {
     pub overhang: f64,
     /// Rod lengths are multiples of this; 0 for any length.
     pub round: f64,
+    /// How rods share lengths.
+    pub share: Share,
     /// Who goes over.
     pub layering: Layering,
     /// How contacts are closed.
@@ -31,6 +34,8 @@ pub struct FormSettings {
 pub struct Formed {
     /// The frame.
     pub frame: Frame,
+    /// What sharing lengths came to, if rods do.
+    pub shared: Option<Shared>,
     /// The tile of each unit.
     pub tiles: IdVec<UnitId, TileId>,
     /// What the last closing took.

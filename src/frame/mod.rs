@@ -27,6 +27,7 @@ pub mod measure;
 pub mod plane_rods;
 pub mod regularity;
 pub mod relax;
+pub mod share;
 pub mod sizes;
 pub mod stand;
 pub mod trim;

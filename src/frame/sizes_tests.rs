@@ -32,6 +32,7 @@ fn formed(pattern: &str, round: f64, sizes: SizeTable) -> Result<Formed, FormErr
         sizes,
         overhang,
         round,
+        share: crate::frame::share::Share::Off,
         layering,
         way: Way::default(),
         surface_low: 0.0,

@@ -4,7 +4,7 @@ use crate::chart::{ChartError, Uneven};
 use crate::frame::canvas::PlaneError;
 use crate::frame::fit::FitError;
 use crate::frame::form::FormError;
-use crate::shop::cutlist::CutError;
+use crate::shop::saw::CutError;
 use crate::surface::prepare::PrepareError;
 use crate::surface::read::ReadError;
 use crate::surface::topology::TopologyError;

@@ -17,8 +17,8 @@ use crate::frame::guide::Guide;
 use crate::frame::measure::{Measures, measure};
 use crate::frame::relax::{Relax, Relaxing, relax};
 use crate::pattern::{Pattern, Shape};
-use crate::shop::cutlist::{CutPlan, Stock, plan};
 use crate::shop::lengths::sticks;
+use crate::shop::saw::{CutPlan, Offer, plan};
 use crate::surface::prepare::{Prepared, prepare, prepare_polygons};
 use crate::surface::read::{read, read_polygons};
 use crate::surface::topology::require_chartable;
@@ -257,6 +257,7 @@ fn finish(
         sizes: design.sizes.clone(),
         overhang: design.overhang,
         round: design.round,
+        share: design.share,
         layering: design.layer,
         way: design.close,
         surface_low: guide.low(),
@@ -323,16 +324,17 @@ fn turned_fit<C: Canvas>(
     }
 }
 
-/// Stock that holds every rod where the user names none: 1 m, or the next whole metre.
+/// The sawing plan. Where the user names no stock: bars of 1 m, or of enough whole metres to
+/// hold every rod.
 fn sawing_plan(design: &Design, formed: &Formed) -> Result<CutPlan, BuildError> {
     let sticks = sticks(&formed.frame);
-    let longest = sticks.iter().map(|stick| stick.length).fold(0.0, f64::max);
-    let stock = if design.stock.is_empty() {
-        vec![((longest / METRE).ceil() * METRE).max(METRE)]
-    } else {
-        design.stock.clone()
-    };
-    Ok(plan(&sticks, &Stock { lengths: stock, kerf: design.kerf })?)
+    let mut stock = design.stock.clone();
+    if stock.bars.iter().all(|bar| bar.at_hand) {
+        let longest = sticks.iter().map(|stick| stick.length).fold(0.0, f64::max);
+        let metres = ((longest + 2.0 * stock.trim) / METRE).ceil().max(1.0);
+        stock.bars.push(Offer::plain(metres * METRE));
+    }
+    Ok(plan(&sticks, &stock)?)
 }
 
 /// Sticks are sold by the metre, mm.

@@ -1,6 +1,6 @@
 //! The cover: what the model looks like, what to buy, how to read the rest.
 
-use super::format::counted;
+use super::format::{counted, fixed};
 use super::legend::{CALIBRATION, RULER_WIDTH, calibration_box, ruler, ruler_down, sign};
 use super::page::{BODY, Flow, HEADING, Leaf, SMALL};
 use super::view::View;
@@ -208,8 +208,17 @@ fn facts(
     block.heading("To buy");
     for bars in plan.shopping() {
         let (length, diameter) = (units.measure(bars.length), units.diameter(bars.diameters));
-        let line = format!("{} × {length}, Ø {diameter}, round", bars.count);
+        let each = bars.price.map_or_else(String::new, |p| format!(", {} each", fixed(p, 2)));
+        let line = format!("{} × {length}, Ø {diameter}, round{each}", bars.count);
         block.text(&line, width)?;
+    }
+    for bars in plan.taken() {
+        let (length, diameter) = (units.measure(bars.length), units.diameter(bars.diameters));
+        let noun = if bars.count == 1 { "offcut" } else { "offcuts" };
+        block.text(&format!("and {} {noun} of {length}, Ø {diameter}", bars.count), width)?;
+    }
+    if let Some(cost) = plan.cost() {
+        block.text(&format!("cost {}", fixed(cost, 2)), width)?;
     }
     block.text(&format!("{} of rod in all", units.total(plan.used())), width)?;
 

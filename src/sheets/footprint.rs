@@ -287,7 +287,13 @@ mod tests {
 
     fn settings(paper: Paper) -> SheetSettings {
         let notes = Vec::new();
-        SheetSettings { model: "station".to_owned(), paper, units: PaperUnits::Mm, notes }
+        SheetSettings {
+            model: "station".to_owned(),
+            paper,
+            units: PaperUnits::Mm,
+            density: 600.0,
+            notes,
+        }
     }
 
     fn layer<'a>(sheet: &'a Drawing, name: &str) -> &'a [Item] {

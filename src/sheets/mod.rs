@@ -54,6 +54,8 @@ pub struct SheetSettings {
     pub paper: Paper,
     /// The unit in which lengths are printed.
     pub units: PaperUnits,
+    /// Density of the rods, kg/m³.
+    pub density: f64,
     /// Lines printed on the cover, such as the command that repeats the run.
     pub notes: Vec<String>,
 }

@@ -6,7 +6,7 @@ use crate::drawing::pdf::{DocumentInfo, render};
 use crate::drawing::{Drawing, Figure, Item, Rect, Shape, Text};
 use crate::ids::{Id, RodId};
 use crate::shop::lengths::sticks;
-use crate::shop::{Stock, cutlist, feet, fixture, marks};
+use crate::shop::{Stock, feet, fixture, marks, saw};
 use std::sync::LazyLock;
 
 static LAID: LazyLock<(Frame, Footprint, Measures)> =
@@ -15,13 +15,13 @@ static IGLOO: LazyLock<Frame> = LazyLock::new(|| LAID.0.clone());
 
 fn settings(paper: Paper, units: PaperUnits) -> SheetSettings {
     let notes = vec!["rodwright build igloo.obj --rod 3mm".to_owned()];
-    SheetSettings { model: "igloo".to_owned(), paper, units, notes }
+    SheetSettings { model: "igloo".to_owned(), paper, units, density: 600.0, notes }
 }
 
 fn cut_plan(frame: &Frame) -> CutPlan {
     let longest = sticks(frame).iter().map(|stick| stick.length).fold(1000.0, f64::max);
-    let stock = Stock { lengths: vec![longest], kerf: 1.0 };
-    cutlist::plan(&sticks(frame), &stock).unwrap()
+    let stock = Stock::plain(&[longest], 1.0);
+    saw::plan(&sticks(frame), &stock).unwrap()
 }
 
 fn pages_of(frame: &Frame, paper: Paper, units: PaperUnits) -> Vec<Sheet> {

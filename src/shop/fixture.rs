@@ -128,6 +128,7 @@ pub(crate) fn laid_on_sample(
         diameter,
         overhang: OVERHANG,
         round: 0.5,
+        share: crate::frame::share::Share::Off,
         layering: Default::default(),
         way: Way::default(),
         surface_low,

@@ -4,18 +4,18 @@
 //! Everything here is read off a finished [`Frame`](crate::frame::Frame); nothing
 //! changes it. Lengths in mm, angles in radians. No paper and no file formats.
 
-pub mod cutlist;
 pub mod feet;
 pub mod lengths;
 pub mod marks;
+pub mod saw;
 
 #[cfg(test)]
 pub(crate) mod fixture;
 
-pub use cutlist::{Bar, BarGroup, CutError, CutPlan, Piece, Purchase, Stock};
 pub use feet::{Foot, feet};
 pub use lengths::{LengthClass, LengthClasses, Stick, classes};
 pub use marks::{Mark, Side, marks};
+pub use saw::{Aim, Bar, BarGroup, CutError, CutPlan, Offer, Piece, Purchase, Stock};
 
 /// A name in letters, counted from zero: `a` … `z`, `aa`, `ab` … with `first` = `'a'`.
 pub(crate) fn letters(index: usize, first: char) -> String {

@@ -9,7 +9,8 @@ use crate::frame::fit::{Fit, FitBy};
 use crate::frame::guide::Guide;
 use crate::frame::measure::Measures;
 use crate::frame::relax::Relaxing;
-use crate::shop::cutlist::CutPlan;
+use crate::frame::share::Shared;
+use crate::shop::saw::{Aim, CutPlan};
 use serde::Serialize;
 
 /// The report of a run.
@@ -30,6 +31,9 @@ pub struct Report {
     /// Contacts that gravity would open: the end of a rod that hangs below the other rod.
     pub tied: Vec<String>,
     pub sawing: Sawing,
+    /// What sharing lengths came to, if rods do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shared_lengths: Option<SharedLengths>,
     pub dropped: Vec<DroppedUnit>,
 }
 
@@ -113,6 +117,26 @@ pub struct Sawing {
     pub waste: f64,
     pub least_bars: usize,
     pub proven: bool,
+    /// What was made small: `bars`, `length` or `cost`.
+    pub aim: &'static str,
+    /// Its value, and what no plan goes below: bars, mm, or money.
+    pub spent: f64,
+    pub least: f64,
+    pub cuts: usize,
+    /// Weight of the rods, kg.
+    pub weight: f64,
+}
+
+/// Lengths that rods share.
+#[derive(Clone, Debug, Serialize)]
+pub struct SharedLengths {
+    /// Different lengths before and after.
+    pub before: usize,
+    pub after: usize,
+    /// What all rods got longer together.
+    pub extra: f64,
+    /// Rods that keep their own length, having no room for more.
+    pub own: Vec<String>,
 }
 
 /// A unit that was left out.
@@ -164,14 +188,34 @@ pub fn arrangement(found: &Arrangement) -> (UnitCounts, Vec<String>) {
 }
 
 /// The sawing plan's part of the report.
-pub fn sawing(plan: &CutPlan) -> Sawing {
+pub fn sawing(plan: &CutPlan, density: f64) -> Sawing {
     Sawing {
         bars: plan.bars.len(),
         bought: plan.bought(),
         waste: plan.waste(),
         least_bars: plan.bound,
         proven: plan.is_proven(),
+        aim: aim(plan),
+        spent: plan.spent,
+        least: plan.least,
+        cuts: plan.cuts(),
+        weight: plan.weight(density),
     }
+}
+
+/// What a plan makes small, in one word.
+pub(super) fn aim(plan: &CutPlan) -> &'static str {
+    match plan.aim {
+        Aim::Bars => "bars",
+        Aim::Length => "length",
+        Aim::Cost => "cost",
+    }
+}
+
+/// The part of the report on shared lengths.
+pub fn shared(shared: &Shared) -> SharedLengths {
+    let Shared { before, after, extra, ref own } = *shared;
+    SharedLengths { before, after, extra, own: own.iter().map(ToString::to_string).collect() }
 }
 
 /// The units left out, and why.

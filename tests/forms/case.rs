@@ -58,6 +58,7 @@ impl Case {
                 sizes: Default::default(),
                 overhang: 6.0,
                 round: 0.5,
+                share: rodwright::frame::share::Share::Off,
                 layering: Layering::Auto,
                 way: Way::default(),
                 surface_low: 0.0,

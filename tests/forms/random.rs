@@ -113,6 +113,7 @@ fn case(seed: u64) -> Case {
             sizes: Default::default(),
             overhang: diameter * dice.within([1.0, 3.0]),
             round: [0.0, 0.5, 1.0][dice.below(3)],
+            share: rodwright::frame::share::Share::Off,
             // Mostly as most people leave it.
             layering: [Layering::Auto, Layering::Auto, Layering::Follow][dice.below(3)],
             way: [Way::Shape, Way::Shape, Way::Least][dice.below(3)],

@@ -116,6 +116,7 @@ fn a_flat_sheet_closes_with_little_move_and_nothing_left_out() {
         diameter: 0.05,
         overhang: 0.1,
         round: 0.0,
+        share: crate::frame::share::Share::Off,
         layering: Layering::Auto,
         way: Way::Least,
         surface_low: -9.0,
