@@ -83,7 +83,7 @@ fn to_buy(plan: &CutPlan) -> String {
 
 /// How many lengths rods have that share them.
 fn shared(shared: &Shared) -> String {
-    let Shared { before, after, extra, own } = shared;
+    let Shared { before, after, extra, kept, own } = shared;
     let names: Vec<String> = own.iter().take(NAMED).map(ToString::to_string).collect();
     let alone = match own.len() {
         0 => String::new(),
@@ -94,7 +94,11 @@ fn shared(shared: &Shared) -> String {
             if n == 1 { "its" } else { "their" }
         ),
     };
-    format!("{after} in place of {before}, for {:.2} m more rod{alone}", extra / 1e3)
+    let kept = match kept {
+        0 => String::new(),
+        n => format!("; {n} that taper or meet others at both ends keep theirs"),
+    };
+    format!("{after} in place of {before}, for {:.2} m more rod{kept}{alone}", extra / 1e3)
 }
 
 /// How many rods are named before the rest is only counted.

@@ -40,6 +40,8 @@ pub struct Shared {
     pub after: usize,
     /// What all rods got longer together, mm.
     pub extra: f64,
+    /// Rods that keep their length in any case: they taper, or meet others at both ends.
+    pub kept: usize,
     /// Rods that keep their own length, since a longer one would run into another rod or into the
     /// ground.
     pub own: Vec<RodId>,
@@ -63,10 +65,11 @@ pub fn share(
     let grows = |r: RodId| sizes[r][0] == sizes[r][1] && ends(r) != [RodEnd::Meets; 2];
     let axes = &mut trimmed.axes;
     let rods: Vec<(f64, bool)> = axes.enumerate().map(|(r, a)| (a.length(), grows(r))).collect();
+    let kept = rods.iter().filter(|(_, grows)| !grows).count();
     let mut wanted: IdVec<RodId, f64> = shared_lengths(&rods, how)?.into();
     let mut own: BTreeSet<RodId> = BTreeSet::new();
     let alone = axes.clone();
-    let (long, clear) = loop {
+    let (long, own) = loop {
         let mut long = alone.clone();
         for (r, axis) in alone.enumerate() {
             let extra = wanted[r] - axis.length();
@@ -89,7 +92,8 @@ pub fn share(
         before: count(&alone),
         after: count(axes),
         extra: total(axes) - total(&alone),
-        own: clear.into_iter().collect(),
+        kept,
+        own: own.into_iter().collect(),
     })
 }
 

@@ -135,6 +135,8 @@ pub struct SharedLengths {
     pub after: usize,
     /// What all rods got longer together.
     pub extra: f64,
+    /// How many rods taper, or meet others at both ends, and so keep their length.
+    pub kept: usize,
     /// Rods that keep their own length, having no room for more.
     pub own: Vec<String>,
 }
@@ -214,8 +216,9 @@ pub(super) fn aim(plan: &CutPlan) -> &'static str {
 
 /// The part of the report on shared lengths.
 pub fn shared(shared: &Shared) -> SharedLengths {
-    let Shared { before, after, extra, ref own } = *shared;
-    SharedLengths { before, after, extra, own: own.iter().map(ToString::to_string).collect() }
+    let Shared { before, after, extra, kept, ref own } = *shared;
+    let own = own.iter().map(ToString::to_string).collect();
+    SharedLengths { before, after, extra, kept, own }
 }
 
 /// The units left out, and why.

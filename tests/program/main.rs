@@ -11,5 +11,6 @@ mod refusals;
 mod relaxing;
 mod run;
 mod samples;
+mod sawing;
 mod sizes;
 mod tiles;

@@ -63,7 +63,7 @@ impl Stock {
 
     /// Refuses what is no stock.
     pub(super) fn check(&self) -> Result<(), CutError> {
-        if !self.bars.iter().any(|b| !b.at_hand) && self.bars.is_empty() {
+        if self.bars.is_empty() {
             return Err(CutError::NoStock);
         }
         let width = |x: f64| x >= 0.0 && x.is_finite();
