@@ -104,24 +104,32 @@ struct Closed {
 }
 
 impl Start<'_> {
-    /// Closed in a way; or by the least move, where steps that shape the units led into
-    /// trouble and that leads into less.
+    /// Closed in a way. Where that leads into trouble, by the least move, and at last by the
+    /// least move alone: bounds that contradict contacts do more harm than good. Of several
+    /// troubles, the least.
     fn best(&self, way: Way) -> Result<Result<Closed, Vec<Fault>>, LinalgError> {
-        let closed = self.closed(way)?;
-        let Err(faults) = closed else { return Ok(closed) };
-        if way != Way::Shape {
-            return Ok(Err(faults));
+        let mut least: Option<Vec<Fault>> = None;
+        let ways = match way {
+            Way::Shape => &[(Way::Shape, true), (Way::Least, true), (Way::Least, false)][..],
+            Way::Least => &[(Way::Least, true), (Way::Least, false)],
+            Way::Paper => &[(Way::Paper, true)],
+        };
+        for &(way, bounded) in ways {
+            match self.closed(way, bounded)? {
+                Ok(closed) => return Ok(Ok(closed)),
+                Err(faults) if least.as_ref().is_none_or(|f| faults.len() < f.len()) => {
+                    least = Some(faults);
+                }
+                Err(_) => {}
+            }
         }
-        Ok(match self.closed(Way::Least)? {
-            Err(others) if others.len() >= faults.len() => Err(faults),
-            least => least,
-        })
+        Ok(Err(least.unwrap_or_default()))
     }
 
-    fn closed(&self, way: Way) -> Result<Result<Closed, Vec<Fault>>, LinalgError> {
+    fn closed(&self, way: Way, bounded: bool) -> Result<Result<Closed, Vec<Fault>>, LinalgError> {
         let mut axes = self.lifted.clone();
         let mut joints = self.joints.clone();
-        let (closing, trimmed) = match self.close_to_size(&mut axes, &mut joints, way)? {
+        let (closing, trimmed) = match self.close_to_size(&mut axes, &mut joints, way, bounded)? {
             Ok(done) => done,
             Err(faults) => return Ok(Err(faults)),
         };
@@ -142,6 +150,7 @@ impl Start<'_> {
         axes: &mut IdVec<RodId, Axis>,
         joints: &mut IdVec<ContactId, Joint>,
         mut way: Way,
+        bounded: bool,
     ) -> Result<Result<(Closing, Trimmed), Vec<Fault>>, LinalgError> {
         let weave = self.weave;
         let (circuits, limits) = (circuits(weave, self.middles), self.limits());
@@ -149,7 +158,7 @@ impl Start<'_> {
         let mut unsettled = Vec::new();
         let mut first = None;
         for _ in 0..MOST_ROUNDS {
-            let (limits, edge) = (Some(&limits), self.edge);
+            let (limits, edge) = (bounded.then_some(&limits), self.edge);
             let roam = Some(ROAM * self.diameter);
             let task = Task { joints, circuits: &circuits, limits, roam, edge };
             let open = |c| open_contact(weave, c);
