@@ -87,6 +87,11 @@ impl LowerPattern {
         &self.rows[self.starts[column] as usize..self.starts[column + 1] as usize]
     }
 
+    /// Whether a pair of unknowns, either way round, is in the pattern.
+    pub fn holds(&self, i: usize, j: usize) -> bool {
+        self.column(i.min(j)).binary_search(&(i.max(j) as u32)).is_ok()
+    }
+
     /// Where among the entries of its column a row stands.
     ///
     /// # Panics

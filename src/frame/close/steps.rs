@@ -205,7 +205,7 @@ impl System<'_> {
         }
         let bases: Bases = axes.iter().map(Across::new).collect();
         let mut solver = match self.solver.take() {
-            Some(solver) if held.is_empty() => solver,
+            Some(solver) if holds(solver.nodes(), &equations, task.joints.len()) => solver,
             _ => BlockSolver::new(pattern(axes.len(), task, &equations)?)?,
         };
         let mut way = self.fill(&mut solver, axes, &bases, task, &equations)?;
@@ -219,9 +219,7 @@ impl System<'_> {
         // What a row lacks after the step is what it is pulled by.
         let met = equations.changes(&moves);
         let left: Vec<f64> = equations.lacking.iter().zip(&met).map(|(r, m)| r - m).collect();
-        if held.is_empty() {
-            self.solver = Some(solver);
-        }
+        self.solver = Some(solver);
         release(held, &left[rows.len()..]);
         Ok(moves)
     }
@@ -291,6 +289,16 @@ fn add_unit(solver: &mut BlockSolver<{ Across::WAYS }>, rhs: &mut [f64], terms: 
             solver.add(rod.index(), other.index(), &block);
         }
     }
+}
+
+/// Whether a pattern holds the pairs of rods of all bounds, which stand after the contacts.
+fn holds(nodes: &LowerPattern, equations: &Equations, contacts: usize) -> bool {
+    (contacts..equations.len()).all(|row| {
+        let parts = &equations.parts()[equations.range(row)];
+        let pairs =
+            parts.iter().enumerate().flat_map(|(i, p)| parts[..i].iter().map(move |q| (p, q)));
+        pairs.into_iter().all(|(p, q)| nodes.holds(p.0.index(), q.0.index()))
+    })
 }
 
 /// Which rods share a term.
