@@ -18,6 +18,7 @@ use rodwright::chart::SurfacePoint;
 use rodwright::frame::ContactKind;
 use rodwright::frame::axis::Axis;
 use rodwright::frame::close::bounds::Limits;
+use rodwright::frame::close::marks::Marks;
 use rodwright::frame::close::shape::Circuit;
 use rodwright::frame::close::{Closing, Task, Way, close};
 use rodwright::frame::gaps::Joint;
@@ -91,7 +92,14 @@ fn problem(path: &Path, only: Option<&str>) {
     let circuits = circuits(&file, &joints);
     let edge = axes.iter().map(Axis::length).sum::<f64>() / axes.len() as f64 / ROD_LENGTH;
     let limits = limits(&axes, &joints, file.w);
-    let task = Task { joints: &joints, circuits: &circuits, limits: None, roam: None, edge };
+    let task = Task {
+        joints: &joints,
+        circuits: &circuits,
+        limits: None,
+        marks: Marks::default(),
+        roam: None,
+        edge,
+    };
     let bounded = Task { limits: Some(&limits), ..task };
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     for (way, task) in [(Way::Least, &task), (Way::Shape, &bounded), (Way::Paper, &task)] {

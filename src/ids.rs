@@ -30,6 +30,19 @@ macro_rules! id {
             }
         }
 
+        impl $name {
+            /// The one of a number as it is printed; zeros in front may be left out.
+            pub fn read(name: &str) -> Option<Self> {
+                let (prefix, digits) = name.split_at_checked($prefix.len())?;
+                // `parse` would take a sign.
+                if !prefix.eq_ignore_ascii_case($prefix) || !digits.bytes().all(|b| b.is_ascii_digit()) {
+                    return None;
+                }
+                let number: u32 = digits.parse().ok()?;
+                number.checked_sub(1).map(Self)
+            }
+        }
+
         /// The number as printed, counted from one and filled with zeros.
         impl fmt::Display for $name {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -161,6 +174,17 @@ mod tests {
         assert_eq!(ContactId::new(1233).to_string(), "C1234");
         assert_eq!(UnitId::new(1999).to_string(), "U2000");
         assert_eq!(VertexId::new(4).to_string(), "5");
+    }
+
+    #[test]
+    fn printed_numbers_are_read_back() {
+        for id in [0, 8, 998, 123_456].map(ContactId::new) {
+            assert_eq!(ContactId::read(&id.to_string()), Some(id));
+        }
+        assert_eq!(RodId::read("r12"), Some(RodId::new(11)));
+        for bad in ["", "R", "R0", "R000", "R+1", "C0001", "12", "R1x", "R99999999999", "Ä1"] {
+            assert_eq!(RodId::read(bad), None, "{bad}");
+        }
     }
 
     #[test]

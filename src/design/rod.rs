@@ -11,7 +11,7 @@
 //! ```
 
 use crate::frame::sizes::SizeTable;
-use crate::ids::{Id, RodId};
+use crate::ids::RodId;
 use crate::units::{Length, UnitError};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
@@ -153,21 +153,13 @@ impl<'de> Deserialize<'de> for Who {
         match key.as_str() {
             "border" => Ok(Self::Border),
             "all" => Ok(Self::All),
-            _ => rod(&key).map(Self::Rod).ok_or_else(|| {
+            _ => RodId::read(&key).map(Self::Rod).ok_or_else(|| {
                 D::Error::custom(format!(
                     "`{key}` names no rods: use border, all, or the number of a rod such as R012"
                 ))
             }),
         }
     }
-}
-
-/// The rod of a number as it is printed; zeros in front may be left out.
-fn rod(name: &str) -> Option<RodId> {
-    let digits = name.strip_prefix(['R', 'r'])?;
-    // `parse` would take a sign.
-    let number: u32 = digits.bytes().all(|b| b.is_ascii_digit()).then(|| digits.parse().ok())??;
-    number.checked_sub(1).map(|i| RodId::new(i as usize))
 }
 
 /// One diameter, or those at end A and at end B, mm.

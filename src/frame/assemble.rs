@@ -1,13 +1,13 @@
 //! Puts the finished frame together from its parts.
 
-use super::axis::Axis;
+use super::axis::{Axis, Crossing};
 use super::cut::{crossings, seats};
 use super::fault::Fault;
 use super::gaps::Joint;
 use super::sizes::Sizes;
 use super::weave::{RodEnd, Weave};
 use super::{Contact, Frame, Rod, Support, Unit};
-use crate::ids::{ContactId, IdVec, RodId};
+use crate::ids::{ContactId, IdVec, RodId, UnitId};
 
 /// What a frame is made of and stands on. Lengths in mm.
 #[derive(Clone, Debug)]
@@ -18,6 +18,22 @@ pub struct Ground {
     pub ground: f64,
     /// The rods that reach it.
     pub supports: Vec<Support>,
+}
+
+/// The contact of a joint whose rods cross so.
+pub fn contact(axes: &IdVec<RodId, Axis>, joint: &Joint, x: &Crossing, unit: UnitId) -> Contact {
+    let [u, v] = [joint.over, joint.under].map(|r| axes[r].direction());
+    Contact {
+        kind: joint.kind,
+        over: joint.over,
+        under: joint.under,
+        at_over: x.at_first,
+        at_under: x.at_second,
+        angle: u.cross(&v).norm().atan2(u.dot(&v).abs()),
+        gap: x.rise,
+        normal: joint.outward,
+        unit,
+    }
 }
 
 /// The frame of these axes, which are closed and cut; nothing is left out of it yet.
@@ -34,21 +50,7 @@ pub fn assemble(
     let seats = seats(axes.len(), joints, &crossings);
     let contacts = joints
         .enumerate()
-        .map(|(id, joint)| {
-            let x = &crossings[id];
-            let [u, v] = [joint.over, joint.under].map(|r| axes[r].direction());
-            Contact {
-                kind: joint.kind,
-                over: joint.over,
-                under: joint.under,
-                at_over: x.at_first,
-                at_under: x.at_second,
-                angle: u.cross(&v).norm().atan2(u.dot(&v).abs()),
-                gap: x.rise,
-                normal: joint.outward,
-                unit: weave.contacts[id].unit,
-            }
-        })
+        .map(|(id, joint)| contact(axes, joint, &crossings[id], weave.contacts[id].unit))
         .collect();
     let rods = axes
         .enumerate()

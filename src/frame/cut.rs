@@ -18,6 +18,20 @@ pub struct Seat {
     pub at: f64,
 }
 
+/// The crossing of a joint's two rods, the over rod first; `None` where they are parallel.
+pub fn crossing(axes: &IdVec<RodId, Axis>, joint: &Joint) -> Option<Crossing> {
+    let (over, under) = (&axes[joint.over], &axes[joint.under]);
+    match joint.kind {
+        ContactKind::Cross => over.cross(under, &joint.outward),
+        ContactKind::End([first, second]) => Some(Crossing {
+            at_first: over.place_of(first),
+            at_second: under.place_of(second),
+            across: joint.outward,
+            rise: (over.end(first) - under.end(second)).norm(),
+        }),
+    }
+}
+
 /// The crossing of every joint's two rods, the over rod first.
 ///
 /// # Errors
@@ -29,20 +43,11 @@ pub fn crossings(
 ) -> Result<IdVec<ContactId, Crossing>, Fault> {
     joints
         .enumerate()
-        .map(|(id, j)| {
-            let (over, under) = (&axes[j.over], &axes[j.under]);
-            match j.kind {
-                ContactKind::Cross => over.cross(under, &j.outward).ok_or_else(|| Fault {
-                    units: vec![weave.contacts[id].unit],
-                    reason: "two of its rods became parallel".into(),
-                }),
-                ContactKind::End([first, second]) => Ok(Crossing {
-                    at_first: over.place_of(first),
-                    at_second: under.place_of(second),
-                    across: j.outward,
-                    rise: (over.end(first) - under.end(second)).norm(),
-                }),
-            }
+        .map(|(id, joint)| {
+            crossing(axes, joint).ok_or_else(|| Fault {
+                units: vec![weave.contacts[id].unit],
+                reason: "two of its rods became parallel".into(),
+            })
         })
         .collect()
 }

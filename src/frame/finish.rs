@@ -6,6 +6,7 @@ use super::axis::Axis;
 use super::circuits::circuits;
 use super::clash::clashes;
 use super::close::bounds::Limits;
+use super::close::marks::Marks;
 use super::close::{CloseError, Closing, Task, Way, close};
 use super::cut::disorder;
 use super::fault::Fault;
@@ -160,7 +161,8 @@ impl Start<'_> {
         for _ in 0..MOST_ROUNDS {
             let (limits, edge) = (bounded.then_some(&limits), self.edge);
             let roam = Some(ROAM * self.diameter);
-            let task = Task { joints, circuits: &circuits, limits, roam, edge };
+            let task =
+                Task { joints, circuits: &circuits, limits, marks: Marks::default(), roam, edge };
             let open = |c| open_contact(weave, c);
             let closing = match close(axes, &task, way) {
                 Ok(closing) => closing,

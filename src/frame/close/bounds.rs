@@ -5,7 +5,7 @@
 //! what is left beyond.
 
 use super::equations::{Equations, Move, pair};
-use super::touch::Touch;
+use super::touch::{Place, Touch};
 use crate::frame::axis::Axis;
 use crate::frame::gaps::{Joint, Row};
 use crate::ids::{ContactId, Id, IdVec, RodId};
@@ -54,12 +54,6 @@ pub struct Bounds<'a> {
     limits: &'a Limits,
     /// Pairs that are near each other but in no contact.
     near: Vec<[RodId; 2]>,
-}
-
-/// A place on a rod, as part of its axis, and how it slides when rods move.
-struct Foot {
-    at: f64,
-    slide: Vec<(RodId, Move)>,
 }
 
 impl<'a> Bounds<'a> {
@@ -236,28 +230,26 @@ impl<'a> Bounds<'a> {
     }
 
     /// An end of a rod as it will be cut, at A (0) or B (1).
-    fn end(&self, rod: RodId, end: usize, axes: &IdVec<RodId, Axis>) -> Option<Foot> {
+    fn end(&self, rod: RodId, end: usize, axes: &IdVec<RodId, Axis>) -> Option<Place> {
         let along = &self.limits.along[rod];
         let contact = if end == 0 { along.first() } else { along.last() };
-        let mut foot = self.seat(rod, *contact?, axes)?;
+        let mut place = self.seat(rod, *contact?, axes)?;
         let axis = &axes[rod];
         let (length, u) = (axis.length(), axis.direction());
         let beyond = self.limits.beyond[rod][end] * if end == 0 { -1.0 } else { 1.0 };
-        foot.at += beyond / length;
-        foot.slide.push((rod, pair(u, -u) * (beyond / (length * length))));
-        Some(foot)
+        place.at += beyond / length;
+        place.slide.push((rod, pair(u, -u) * (beyond / (length * length))));
+        Some(place)
     }
 
     /// Where a contact lies on one of its rods.
-    fn seat(&self, rod: RodId, contact: ContactId, axes: &IdVec<RodId, Axis>) -> Option<Foot> {
-        let touch = Touch::new(axes, &self.joints[contact])?;
-        let side = touch.side(rod);
-        let slide = touch.rods.into_iter().zip(touch.slide[side]).collect();
-        Some(Foot { at: touch.at[side], slide })
+    fn seat(&self, rod: RodId, contact: ContactId, axes: &IdVec<RodId, Axis>) -> Option<Place> {
+        Touch::new(axes, &self.joints[contact]).map(|touch| touch.place(rod))
     }
 }
 
-fn add(parts: &mut BTreeMap<RodId, Move>, more: &[(RodId, Move)], factor: f64) {
+/// Adds gradients times a factor.
+pub(super) fn add(parts: &mut BTreeMap<RodId, Move>, more: &[(RodId, Move)], factor: f64) {
     for (rod, part) in more {
         *parts.entry(*rod).or_insert_with(Move::zeros) += part * factor;
     }

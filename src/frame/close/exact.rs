@@ -6,6 +6,7 @@
 
 use super::bounds::Bound;
 use super::equations::{Equations, longest, moved};
+use super::marks::hold;
 use super::projector::Projector;
 use super::{CloseError, Task, gap_rows, worst};
 use crate::frame::axis::Axis;
@@ -44,6 +45,19 @@ const SERVES: f64 = 0.05;
 /// far off, more, and bounds take more steps to be met.
 pub(super) const YIELD: f64 = 1e-3;
 
+/// A mark that is held is met when it is as near as this, as part of the edge. Less, and rounding
+/// keeps it from being met; more, and marks are off by what checks show.
+const MET: f64 = 1e-11;
+
+/// Steps after which marks are let be that are not met. Where marks contradict each other, rods
+/// would else creep on for what is hardly to be gained.
+const MARK_STEPS: usize = 12;
+
+/// Marks that contradict each other are as near as they come when a step moves no rod end by
+/// more than this, as part of the edge. Less, and many steps are made for nothing; more, and
+/// marks that can be met are not.
+const STILL: f64 = 1e-9;
+
 /// What projection took.
 pub struct Exact {
     /// Newton steps.
@@ -52,8 +66,8 @@ pub struct Exact {
     pub error: f64,
 }
 
-/// Moves the axes by as little as possible until every joint has its gap, and the bounds
-/// hold, those in `held` from the start.
+/// Moves the axes by as little as possible until every joint has its gap, marks are where they
+/// are held as far as can be, and the bounds hold, those in `held` from the start.
 pub fn exact(
     axes: &mut IdVec<RodId, Axis>,
     task: &Task,
@@ -64,13 +78,24 @@ pub fn exact(
     let mut rows = gap_rows(axes, task.joints)?;
     let mut bounds = task.bounds(axes, &rows);
     let mut last = f64::INFINITY;
+    let mut still = false;
     for step in 0..=MAX_STEPS {
         let error = worst(&rows);
+        let mut equations = Equations::of_contacts(&rows);
+        hold(task, axes, &mut equations)?;
+        let slip = equations.lacking[rows.len()..].iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        let with_marks = equations.len();
         let broken = match &bounds {
             Some(bounds) if step < BOUND_STEPS => bounds.broken(axes, &rows),
             _ => Vec::new(),
         };
-        if (error <= EXACT || error <= GOOD && error > STUCK * last) && broken.is_empty() {
+        // What is left of marks is let be then, but they do not go farther off.
+        let settled = slip <= MET * task.edge || still || step >= MARK_STEPS;
+        if settled {
+            equations.lacking[rows.len()..].fill(0.0);
+        }
+        if (error <= EXACT || error <= GOOD && error > STUCK * last) && broken.is_empty() && settled
+        {
             return Ok(Exact { steps: step, error });
         }
         if step == MAX_STEPS || error.is_nan() {
@@ -84,16 +109,19 @@ pub fn exact(
         }
         let serves = step > 0 && held.len() == before && error < SERVES * last;
         last = error;
-        let mut equations = Equations::of_contacts(&rows);
         if let Some(bounds) = &bounds {
             held.retain(|&bound| bounds.hold(bound, axes, &mut equations));
         }
         let (projector, new) = Projector::for_equations(projector, axes.len(), &equations)?;
         if new || !serves {
-            projector.factor(&equations, |row| yields(row, rows.len()))?;
+            let marks = rows.len()..with_marks;
+            let give =
+                |row| if marks.contains(&row) { task.marks.give } else { yields(row, rows.len()) };
+            projector.factor(&equations, give)?;
         }
         let (moves, pull) = projector.least_moves(&equations);
-        release(held, &pull[rows.len()..]);
+        release(held, &pull[with_marks..]);
+        still = longest(&moves) <= STILL * task.edge;
         let part = (LONGEST_MOVE * mean / longest(&moves)).min(1.0);
         *axes = moved(axes, &moves, part);
         rows = gap_rows(axes, task.joints)?;
@@ -104,7 +132,9 @@ pub fn exact(
     unreachable!("the last round of the loop returns")
 }
 
-/// S of [`Projector::factor`]: contacts are firm, bounds give way a little.
+/// S of [`Projector::factor`]: contacts are firm, bounds give way a little. So do marks: what is
+/// left of one is pulled at again in the next step, and where marks contradict each other, it
+/// tends to the least sum of squares.
 pub(super) fn yields(row: usize, contacts: usize) -> f64 {
     if row < contacts { 0.0 } else { YIELD }
 }

@@ -8,14 +8,15 @@
 //! Sliding a rod along itself changes no gap of a crossing and no unit's shape, so nothing
 //! does it but ends that meet.
 
-mod across;
+pub(super) mod across;
 pub mod bounds;
-mod equations;
+pub(super) mod equations;
 mod exact;
+pub mod marks;
 mod projector;
 pub mod shape;
 mod steps;
-mod touch;
+pub(super) mod touch;
 
 use super::axis::Axis;
 use super::gaps::{Joint, Row, rows};
@@ -23,6 +24,7 @@ use crate::ids::{ContactId, IdVec, RodId};
 use crate::linalg::LinalgError;
 use bounds::{Bound, Bounds, Limits};
 use exact::exact;
+use marks::Marks;
 use serde::{Deserialize, Serialize};
 use shape::{Circuit, Energy, energy};
 use std::collections::BTreeSet;
@@ -58,6 +60,8 @@ pub struct Task<'a> {
     pub circuits: &'a [Circuit],
     /// What to keep, if anything.
     pub limits: Option<&'a Limits>,
+    /// Rods whose marks are held; steps that shape the units take no heed of them.
+    pub marks: Marks<'a>,
     /// How far rod ends may move in the mean for the shape of units, mm; any distance if not
     /// given.
     pub roam: Option<f64>,
@@ -130,7 +134,17 @@ pub fn project(
     axes: &mut IdVec<RodId, Axis>,
     joints: &IdVec<ContactId, Joint>,
 ) -> Result<Closing, CloseError> {
-    least(axes, &Task { joints, circuits: &[], limits: None, roam: None, edge: 1.0 })
+    least(
+        axes,
+        &Task {
+            joints,
+            circuits: &[],
+            limits: None,
+            marks: Marks::default(),
+            roam: None,
+            edge: 1.0,
+        },
+    )
 }
 
 fn shaped(axes: &mut IdVec<RodId, Axis>, task: &Task) -> Result<Closing, CloseError> {

@@ -1,5 +1,6 @@
 use super::bounds::{Bounds, Limits};
 use super::equations::{Equations, Move, Moves, moved};
+use super::marks::Marks;
 use super::shape::{Circuit, UnitTerms};
 use super::*;
 use crate::chart::SurfacePoint;
@@ -183,8 +184,14 @@ fn rods_that_would_clash_are_kept_apart() {
     assert!(nearest(&free) < 2.5, "{}", nearest(&free));
     for way in [Way::Least, Way::Shape] {
         let mut axes = start.clone();
-        let task =
-            Task { joints: &joints, circuits: &[], limits: Some(&limits), roam: None, edge: 60.0 };
+        let task = Task {
+            joints: &joints,
+            circuits: &[],
+            limits: Some(&limits),
+            marks: Marks::default(),
+            roam: None,
+            edge: 60.0,
+        };
         let done = close(&mut axes, &task, way).unwrap();
         assert!(done.error <= 1e-10 && done.held > 0, "{done:?}");
         assert!(nearest(&axes) >= 3.0 - 1e-9, "{way:?}: {}", nearest(&axes));
@@ -199,7 +206,14 @@ fn units_are_brought_into_shape() {
     axes[RodId::new(1)].a.x += 4.0;
     axes[RodId::new(2)].b.y -= 3.0;
     let circuits = [wanted(&joints, [0.0; 3])];
-    let task = Task { joints: &joints, circuits: &circuits, limits: None, roam: None, edge: 60.0 };
+    let task = Task {
+        joints: &joints,
+        circuits: &circuits,
+        limits: None,
+        marks: Marks::default(),
+        roam: None,
+        edge: 60.0,
+    };
     let total = |way: Way| {
         let done = close(&mut axes.clone(), &task, way).unwrap();
         (done.energy.map(|e| e.total()), done.error)

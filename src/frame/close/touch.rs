@@ -26,6 +26,15 @@ pub struct Touch {
     pub slide: [[Move; 2]; 2],
 }
 
+/// A place on a rod, as part of its axis, and how it slides when rods move.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// 0 at A and 1 at B.
+    pub at: f64,
+    /// Gradients of `at`; a rod may come twice.
+    pub slide: Vec<(RodId, Move)>,
+}
+
 impl Touch {
     /// The contact of a joint; `None` where its rods are parallel.
     pub fn new(axes: &IdVec<RodId, Axis>, joint: &Joint) -> Option<Self> {
@@ -62,6 +71,12 @@ impl Touch {
             }
             m * 0.5
         })
+    }
+
+    /// The contact as a place on one of its two rods.
+    pub fn place(&self, rod: RodId) -> Place {
+        let side = self.side(rod);
+        Place { at: self.at[side], slide: self.rods.into_iter().zip(self.slide[side]).collect() }
     }
 
     /// Which of its two rods a rod is.
