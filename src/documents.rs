@@ -40,6 +40,9 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
         files.add("rods.csv", tables::rods(frame, &classes)?);
         files.add("contacts.csv", tables::contacts(frame)?);
         files.add("supports.csv", tables::supports(frame)?);
+        if let Some(misfit) = &model.misfit {
+            files.add("tolerance.csv", tables::tolerance(misfit)?);
+        }
     }
     if design.wants(Part::Cutlist) {
         files.add("cutlist.json", cutlist_json(&model.plan, design.density)?);
@@ -95,6 +98,8 @@ fn report(design: &Design, model: &Model) -> Report {
         tied,
         sawing: report::sawing(&model.plan, design.density),
         shared_lengths: model.formed.shared.as_ref().map(report::shared),
+        as_built: model.as_built.as_ref().map(report::as_built),
+        tolerance: model.misfit.as_ref().map(report::tolerance),
         dropped: report::dropped(&model.formed.frame),
     }
 }

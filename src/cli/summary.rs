@@ -4,8 +4,11 @@ use super::terminal::Terminal;
 use crate::design::Design;
 use crate::frame::Frame;
 use crate::frame::arrangement::arrangement;
+use crate::frame::as_built::AsBuilt;
 use crate::frame::fit::FitBy;
 use crate::frame::share::Shared;
+use crate::frame::tolerance::{Misfit, Tolerance};
+use crate::ids::RodId;
 use crate::pipeline::Model;
 use crate::shop::lengths::diameters;
 use crate::shop::{Aim, CutPlan, Purchase};
@@ -18,7 +21,7 @@ pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) 
     let plan = &model.plan;
     let [lo, hi] = model.formed.frame.bounds();
     let size = hi - lo;
-    let rows = [
+    let mut rows = vec![
         ("rods", format!("{}, {} units", rods(&model.formed.frame), m.units)),
         ("size", format!("{:.0} × {:.0} × {:.0} mm", size.x, size.y, size.z)),
         (
@@ -31,6 +34,9 @@ pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) 
                 m.total_length / 1e3
             ),
         ),
+    ];
+    rows.extend(model.formed.shared.as_ref().map(|s| ("shared lengths", shared(s))));
+    rows.extend([
         ("to buy", to_buy(plan)),
         ("contacts", format!("{}, worst error {:.1e} of the diameter", m.contacts, m.worst_gap)),
         ("to be tied", to_be_tied(model)),
@@ -41,13 +47,13 @@ pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) 
             format!("{:.1} mm rms, {:.1} mm at most", m.from_surface.rms, m.from_surface.max),
         ),
         ("left out", left_out(model)),
-    ];
-    let shared = model.formed.shared.as_ref().map(|s| ("shared lengths", shared(s)));
+    ]);
+    rows.extend(model.as_built.as_ref().map(|what| ("as built", as_built(what))));
+    rows.extend(model.misfit.as_ref().map(|misfit| ("tolerance", tolerance(misfit))));
     let mut text = String::new();
     let title = format!("{}: {} reciprocal frame", design.name(), design.tiles.name());
     writeln!(text, "{}", terminal.bold(&title)).expect("writing to a string cannot fail");
-    let [rods, size, lengths, rest @ ..] = rows;
-    for (label, value) in [rods, size, lengths].into_iter().chain(shared).chain(rest) {
+    for (label, value) in rows {
         writeln!(text, "  {label:<16} {value}").expect("writing to a string cannot fail");
     }
     let end = format!("  {:<16} {}", "written to", out.display());
@@ -65,6 +71,9 @@ fn to_buy(plan: &CutPlan) -> String {
         bars.iter().map(one).collect::<Vec<_>>().join(" + ")
     };
     let (buy, taken) = (plan.shopping(), plan.taken());
+    if plan.bars.is_empty() {
+        return "nothing: all rods are sawn".into();
+    }
     let mut text = if buy.is_empty() { "nothing".into() } else { list(&buy) };
     if !taken.is_empty() {
         text += &format!(" and the offcuts {}", list(&taken));
@@ -84,13 +93,11 @@ fn to_buy(plan: &CutPlan) -> String {
 /// How many lengths rods have that share them.
 fn shared(shared: &Shared) -> String {
     let Shared { before, after, extra, kept, own } = shared;
-    let names: Vec<String> = own.iter().take(NAMED).map(ToString::to_string).collect();
     let alone = match own.len() {
         0 => String::new(),
         n => format!(
-            "; {}{} kept {} own, having no room for more",
-            names.join(", "),
-            if n > NAMED { format!(" and {} more", n - NAMED) } else { String::new() },
+            "; {} kept {} own, having no room for more",
+            named(own),
             if n == 1 { "its" } else { "their" }
         ),
     };
@@ -100,9 +107,6 @@ fn shared(shared: &Shared) -> String {
     };
     format!("{after} in place of {before}, for {:.2} m more rod{kept}{alone}", extra / 1e3)
 }
-
-/// How many rods are named before the rest is only counted.
-const NAMED: usize = 5;
 
 /// How many rods there are of each diameter.
 pub fn rods(frame: &Frame) -> String {
@@ -134,6 +138,66 @@ fn unit(model: &Model) -> String {
         FitBy::Plain => "plain: the surface is too flat for the rods to decide".into(),
     };
     format!("tile edge {:.1} mm, {how}", fit.edge)
+}
+
+/// What became of measurements on sticks, and what to do now.
+fn as_built(what: &AsBuilt) -> String {
+    let left = match what.deviation {
+        met if met < MET => "all met".into(),
+        left => format!("at most {left:.2} mm left"),
+    };
+    let held = match what.marks {
+        0 => String::new(),
+        1 => format!("1 mark held, {left}; "),
+        n => format!("{n} marks held, {left}; "),
+    };
+    let off: Vec<RodId> = what.mark_again.iter().map(|(rod, _)| *rod).collect();
+    let most = what.mark_again.iter().map(|again| again.1).fold(0.0, f64::max);
+    let marks = match off.is_empty() {
+        true => format!("other marks change by {:.2} mm at most", what.mark_change),
+        false => format!("marks are off by up to {most:.1} mm: mark again {}", named(&off)),
+    };
+    let lengths = match what.saw_again.is_empty() {
+        true => String::new(),
+        false => format!(
+            "; lengths change by up to {:.1} mm: {}",
+            what.length_change,
+            named(&what.saw_again)
+        ),
+    };
+    let sawn = match what.sawn.len() {
+        1 => "1 rod sawn".into(),
+        n => format!("{n} rods sawn"),
+    };
+    format!("{sawn}; {held}{marks}{lengths}")
+}
+
+/// What is left of held marks below this is not worth a word, mm.
+const MET: f64 = 0.005;
+
+/// The rods, or the first of them.
+fn named(rods: &[RodId]) -> String {
+    let names: Vec<String> = rods.iter().take(NAMED).map(RodId::to_string).collect();
+    match rods.len().saturating_sub(NAMED) {
+        0 => names.join(", "),
+        more => format!("{} and {more} more (report.json)", names.join(", ")),
+    }
+}
+
+/// How many rods a line names before it only counts the rest.
+const NAMED: usize = 12;
+
+/// What errors of marks and diameters do.
+fn tolerance(misfit: &Misfit) -> String {
+    let Tolerance { marks, diameter } = misfit.tolerance;
+    let worst = misfit.worst().map_or(String::new(), |worst| {
+        format!("; worst {}, {:.1} mm at 95 %", worst.unit, worst.off.p95)
+    });
+    format!(
+        "with marks ±{marks} mm and sticks ±{diameter} mm, the last contact of a unit will be off \
+         by {:.1} mm in the median, {:.1} mm at 95 %{worst}",
+        misfit.overall.median, misfit.overall.p95
+    )
 }
 
 fn to_be_tied(model: &Model) -> String {

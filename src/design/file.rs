@@ -22,6 +22,15 @@ impl Design {
         self.stock_settings(&mut file, found_stock);
         file.set("paper", self.paper.to_string());
         file.set("units", choice(self.units));
+        if let Some(measured) = &self.measured {
+            file.set("as_built", measured.given.to_string_lossy().into_owned());
+        }
+        if let Some(tolerance) = self.tolerance {
+            let both = [("marks", tolerance.marks), ("diameter", tolerance.diameter)];
+            let table = both.map(|(key, length)| (key.to_owned(), mm(length).into()));
+            file.set("tolerance", toml::Table::from_iter(table));
+            file.set("seed", i64::from(self.seed));
+        }
         if let Some(only) = &self.given.only {
             file.set("only", choice(only));
         }

@@ -5,15 +5,19 @@
 //! the whole, which gives a [`Design`].
 
 mod file;
+mod measured;
 mod resolve;
 mod rod;
 mod settings;
 mod stock;
+mod tolerance;
 
+pub use measured::MeasuredTable;
 pub use resolve::Folders;
 pub use rod::RodSetting;
 pub use settings::Settings;
 pub use stock::{OffcutItem, StockItem};
+pub use tolerance::ToleranceSetting;
 
 use crate::chart::Method;
 use crate::frame::close::Way;
@@ -21,6 +25,7 @@ use crate::frame::layer::Layering;
 use crate::frame::relax::Relax;
 use crate::frame::share::Share;
 use crate::frame::sizes::SizeTable;
+use crate::frame::tolerance::Tolerance;
 use crate::pattern::{Pattern, PatternError, ShapeError};
 use crate::sheets::{Paper, PaperUnits};
 use crate::shop::Stock;
@@ -41,7 +46,7 @@ use thiserror::Error;
 pub enum Part {
     /// structure.json, report.json and design.toml, which every folder has.
     Structure,
-    /// rods.csv, contacts.csv, supports.csv
+    /// rods.csv, contacts.csv, supports.csv, tolerance.csv
     Csv,
     /// cutlist.json, cutlist.csv
     Cutlist,
@@ -166,6 +171,12 @@ pub struct Design {
     pub paper: Paper,
     /// Unit on paper.
     pub units: PaperUnits,
+    /// What was measured on sticks, if the frame is to be solved again with it.
+    pub measured: Option<MeasuredTable>,
+    /// How exact marks and sticks are, if it is to be tried what that does.
+    pub tolerance: Option<Tolerance>,
+    /// Where the random errors of that start.
+    pub seed: u32,
     /// What to write.
     pub only: Vec<Part>,
     given: Settings,
@@ -180,6 +191,9 @@ pub enum DesignError {
     /// The design file is not valid; the message names line, key and known keys.
     #[error("{file}: {source}")]
     Invalid { file: PathBuf, source: Box<toml::de::Error> },
+    /// The table of measurements is not valid.
+    #[error("{file}: line {line}: {problem}")]
+    Measured { file: PathBuf, line: u64, problem: String },
     /// The pattern file cannot be read, or is not valid.
     #[error("{}", source.in_file(file))]
     Pattern { file: PathBuf, source: Box<PatternError> },

@@ -1,7 +1,9 @@
 //! Fills in the defaults and checks every setting.
 
-use super::{ALL_PARTS, Design, DesignError, Part, SPHERE, Settings, Sphere, Tiles};
+use super::{ALL_PARTS, Design, DesignError, MeasuredTable, Part, SPHERE, Settings, Sphere, Tiles};
+use crate::frame::close::Way;
 use crate::frame::share::Share;
+use crate::frame::tolerance::Tolerance;
 use crate::pattern::{Pattern, Shape, library};
 use crate::shop::{Offer, Stock};
 use crate::tiling::conway::Notation;
@@ -16,6 +18,8 @@ pub struct Folders<'a> {
     pub surface: Option<&'a Path>,
     /// For the pattern file.
     pub pattern: Option<&'a Path>,
+    /// For the table of measurements.
+    pub as_built: Option<&'a Path>,
 }
 
 /// A file in a folder if there is one of this name, or else where we are.
@@ -67,6 +71,9 @@ impl Settings {
             round: not_negative("round", self.round)?.unwrap_or(DEFAULT_ROUND),
             paper: self.paper.unwrap_or_default(),
             units: self.units.unwrap_or_default(),
+            measured: self.measured(folders.as_built)?,
+            tolerance: self.tolerance()?,
+            seed: self.seed.unwrap_or(DEFAULT_SEED),
             only: self.only.clone().unwrap_or_else(|| ALL_PARTS.to_vec()),
             given: self,
         })
@@ -108,6 +115,32 @@ impl Settings {
             (None, Some(tolerance)) => Ok(Share::Tolerance(tolerance)),
             (None, None) => Ok(Share::Off),
         }
+    }
+
+    /// What was measured on sticks.
+    fn measured(&self, folder: Option<&Path>) -> Result<Option<MeasuredTable>, DesignError> {
+        let Some(given) = &self.as_built else { return Ok(None) };
+        if self.close == Some(Way::Paper) {
+            let problem = "close = paper leaves gaps larger than what is measured: take shape, or \
+                           leave close out";
+            return Err(setting("as-built", given.display(), problem));
+        }
+        MeasuredTable::read(given, beside(folder, given)).map(Some)
+    }
+
+    /// How exact marks and sticks are.
+    fn tolerance(&self) -> Result<Option<Tolerance>, DesignError> {
+        let Some(given) = self.tolerance else {
+            let why = "it is for the random errors of --tolerance";
+            return match self.seed {
+                Some(_) => Err(DesignError::Idle { key: "seed", why }),
+                None => Ok(None),
+            };
+        };
+        let ends = [given.marks, given.diameter].map(|length| not_negative("tolerance", length));
+        let [marks, diameter] = ends;
+        let [marks, diameter] = [marks?.unwrap_or(0.0), diameter?.unwrap_or(0.0)];
+        Ok(Some(Tolerance { marks, diameter }))
     }
 
     /// What the units are made on, by the surface and the pattern asked for.
@@ -218,6 +251,8 @@ const LEAST_WARP: f64 = 0.3125;
 
 /// Diameter of the sticks when none is given, mm: dowel from any craft shop.
 const DEFAULT_ROD: f64 = 3.0;
+/// Where random errors start when it is not said.
+const DEFAULT_SEED: u32 = 1;
 /// Width of the cut of a fine saw, mm.
 const DEFAULT_KERF: f64 = 1.0;
 /// Density of the rods when none is given, kg/m³: most softwoods are of 450 to 650, beech

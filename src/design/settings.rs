@@ -1,7 +1,7 @@
 //! The settings as given, on the command line or in design.toml.
 
 use super::stock::{OffcutItem, StockItem};
-use super::{DesignError, Part, RodSetting};
+use super::{DesignError, Part, RodSetting, ToleranceSetting};
 use crate::chart::Method;
 use crate::frame::close::Way;
 use crate::frame::layer::Layering;
@@ -151,6 +151,21 @@ pub struct Settings {
     #[arg(long, value_enum)]
     pub units: Option<PaperUnits>,
 
+    /// Solve the frame again with what was measured on the sticks: a CSV file with the columns
+    /// rod, mate or contact, mark, diameter (README, "Sticks as they are"). Rods in it are sawn:
+    /// they keep their length, and contacts come to lie at their marks
+    #[arg(long, value_name = "FILE")]
+    pub as_built: Option<PathBuf>,
+
+    /// Try how far the last contact of each unit will be off where marks and diameters are
+    /// not exact, as "marks 0.5mm, diameter 0.1mm": ± two standard deviations, which 95 % keep
+    #[arg(long, value_name = "ERRORS")]
+    pub tolerance: Option<ToleranceSetting>,
+
+    /// Where the random errors of --tolerance start [default: 1]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u32>,
+
     /// Write only these besides structure and report [default: all]
     #[arg(long, value_name = "PARTS", value_delimiter = ',', num_args = 1, value_enum)]
     pub only: Option<Vec<Part>>,
@@ -209,6 +224,9 @@ impl Settings {
             class_tolerance: self.class_tolerance.or(other.class_tolerance.filter(|_| !shares)),
             paper: self.paper.or(other.paper),
             units: self.units.or(other.units),
+            as_built: self.as_built.or(other.as_built),
+            tolerance: self.tolerance.or(other.tolerance),
+            seed: self.seed.or(other.seed),
             only: self.only.or(other.only),
         }
     }

@@ -3,6 +3,7 @@
 //! layer, close, cut, stand, and the measures of the result.
 
 pub mod arrangement;
+pub mod as_built;
 pub mod assemble;
 pub mod axis;
 pub mod canvas;
@@ -15,6 +16,8 @@ pub mod fault;
 mod finish;
 pub mod fit;
 pub mod fit_turn;
+#[cfg(test)]
+pub(crate) mod fixture;
 pub mod footprint;
 pub mod form;
 pub mod formed;
@@ -30,6 +33,7 @@ pub mod relax;
 pub mod share;
 pub mod sizes;
 pub mod stand;
+pub mod tolerance;
 pub mod trim;
 pub mod weave;
 
@@ -37,6 +41,7 @@ use crate::chart::SurfacePoint;
 use crate::ids::{ContactId, IdVec, RodId, UnitId};
 use crate::surface::{Point3, Vector3};
 use axis::Axis;
+use gaps::Joint;
 use sizes::{diameter_at, gap_between};
 
 /// A finished reciprocal frame. Lengths in mm, angles in radians, z up.
@@ -206,6 +211,36 @@ impl Frame {
             ]),
             ContactKind::End(_) => 0.0,
         }
+    }
+
+    /// The contacts as they are to be closed, with the gaps that are wanted where they lie.
+    pub fn joints(&self) -> IdVec<ContactId, Joint> {
+        let joint = |c: &Contact| Joint {
+            over: c.over,
+            under: c.under,
+            outward: c.normal,
+            diameter: match c.kind {
+                ContactKind::Cross => self.wanted_gap(c),
+                // Only errors are measured by it.
+                ContactKind::End(_) => self.diameter,
+            },
+            kind: c.kind,
+        };
+        self.contacts.iter().map(joint).collect()
+    }
+
+    /// The end at which a rod meets another in this contact, if ends meet there.
+    pub fn met_end(&self, contact: ContactId, rod: RodId) -> Option<End> {
+        let c = &self.contacts[contact];
+        match c.kind {
+            ContactKind::Cross => None,
+            ContactKind::End([over, under]) => Some(if c.over == rod { over } else { under }),
+        }
+    }
+
+    /// The ends at which a rod meets others end to end.
+    pub fn met_ends(&self, rod: RodId) -> Vec<End> {
+        self.rods[rod].contacts.iter().filter_map(|&c| self.met_end(c, rod)).collect()
     }
 
     /// The diameter of the thickest rod, mm.

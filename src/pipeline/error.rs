@@ -1,14 +1,17 @@
 //! Why there is no model, and what to try.
 
 use crate::chart::{ChartError, Uneven};
+use crate::frame::as_built::AsBuiltError;
 use crate::frame::canvas::PlaneError;
 use crate::frame::fit::FitError;
 use crate::frame::form::FormError;
+use crate::linalg::LinalgError;
 use crate::shop::saw::CutError;
 use crate::surface::prepare::PrepareError;
 use crate::surface::read::ReadError;
 use crate::surface::topology::TopologyError;
 use crate::tiling::midsphere::MidsphereError;
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Why there is no model.
@@ -73,6 +76,12 @@ pub enum BuildError {
     /// The frame, with rods that do not suit its units.
     #[error("{e}. Rods of {suits:.1} mm (--rod) would suit these units best")]
     Unsuited { e: FormError, suits: f64 },
+    /// What was measured on sticks.
+    #[error("{file}: {e}")]
+    AsBuilt { file: PathBuf, e: AsBuiltError },
+    /// What errors of marks and diameters do.
+    #[error("what marks that are off do cannot be found: {0}")]
+    Tolerance(LinalgError),
     /// The sawing plan.
     #[error("{0}. {hint}", hint = sentence(&.0.hint()))]
     Cut(#[from] CutError),

@@ -7,7 +7,8 @@ mod smaller;
 pub use error::{BuildError, UNEVEN_ADVICE};
 
 use crate::chart::PlanarChart;
-use crate::design::{Design, Sphere, Tiles};
+use crate::design::{Design, MeasuredTable, Sphere, Tiles};
+use crate::frame::as_built::{AsBuilt, Cutting, as_built};
 use crate::frame::canvas::{Canvas, MeshTiles, PlaneCanvas, SphereTiles};
 use crate::frame::fit::{Fit, FitBy, fit};
 use crate::frame::fit_turn::{fit_turn, safe_turns, safe_turns_of_slid};
@@ -16,9 +17,11 @@ use crate::frame::form::{FormError, FormSettings, Formed, form, median_rise};
 use crate::frame::guide::Guide;
 use crate::frame::measure::{Measures, measure};
 use crate::frame::relax::{Relax, Relaxing, relax};
+use crate::frame::tolerance::{Misfit, misfit};
+use crate::ids::RodId;
 use crate::pattern::{Pattern, Shape};
 use crate::shop::lengths::sticks;
-use crate::shop::saw::{CutPlan, Offer, plan};
+use crate::shop::saw::{CutPlan, Offer, plan_some};
 use crate::surface::prepare::{Prepared, prepare, prepare_polygons};
 use crate::surface::read::{read, read_polygons};
 use crate::surface::topology::require_chartable;
@@ -43,7 +46,11 @@ pub struct Model {
     pub footprint: Option<Footprint>,
     /// Its figures.
     pub measures: Measures,
-    /// The sawing plan.
+    /// What became of measurements on its sticks, if it was solved again with them.
+    pub as_built: Option<AsBuilt>,
+    /// What errors of marks and diameters do, if that was asked for.
+    pub misfit: Option<Misfit>,
+    /// The sawing plan; without sticks that are sawn.
     pub plan: CutPlan,
 }
 
@@ -60,8 +67,12 @@ pub enum Step {
     Relax,
     /// Weaving, lifting and closing the frame.
     Form,
+    /// Solving it again with what was measured on sticks.
+    AsBuilt,
     /// Measuring the result.
     Measure,
+    /// Trying what errors of marks and diameters do.
+    Tolerance,
     /// Planning the saw cuts.
     Saw,
     /// Drawing and encoding the documents.
@@ -75,6 +86,20 @@ pub enum Step {
 /// # Errors
 /// [`BuildError`] with what is wrong and what to try.
 pub fn build(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, BuildError> {
+    let mut model = planned(design, begin)?;
+    if let Some(measured) = &design.measured {
+        model = built(design, measured, model, begin)?;
+    }
+    if let Some(tolerance) = design.tolerance {
+        begin(Step::Tolerance);
+        let frame = &model.formed.frame;
+        model.misfit = misfit(frame, tolerance, design.seed).map_err(BuildError::Tolerance)?;
+    }
+    Ok(model)
+}
+
+/// The model as planned, whatever was measured.
+fn planned(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, BuildError> {
     match &design.tiles {
         Tiles::Pattern(pattern) => {
             let flat = flatten(design, begin)?;
@@ -266,8 +291,39 @@ fn finish(
     begin(Step::Measure);
     let measures = measure(&formed, &guide);
     begin(Step::Saw);
-    let plan = sawing_plan(design, &formed)?;
-    Ok(Model { guide, notes, fit, formed, relaxing: None, footprint: None, measures, plan })
+    let plan = sawing_plan(design, &formed, &[])?;
+    Ok(Model {
+        guide,
+        notes,
+        fit,
+        formed,
+        relaxing: None,
+        footprint: None,
+        measures,
+        as_built: None,
+        misfit: None,
+        plan,
+    })
+}
+
+/// The model solved again with what was measured on its sticks.
+fn built(
+    design: &Design,
+    measured: &MeasuredTable,
+    mut model: Model,
+    begin: &mut dyn FnMut(Step),
+) -> Result<Model, BuildError> {
+    begin(Step::AsBuilt);
+    let cutting = Cutting { overhang: design.overhang, round: design.round };
+    let (frame, what) = as_built(&model.formed.frame, &measured.rows, cutting)
+        .map_err(|e| BuildError::AsBuilt { file: measured.file.clone(), e })?;
+    model.formed.frame = frame;
+    model.formed.closing.error = what.error;
+    begin(Step::Measure);
+    model.measures = measure(&model.formed, &model.guide);
+    begin(Step::Saw);
+    model.plan = sawing_plan(design, &model.formed, &what.sawn)?;
+    Ok(Model { as_built: Some(what), ..model })
 }
 
 /// Where units fail whose size and turn could not be fitted to the rods, says which rods
@@ -325,16 +381,17 @@ fn turned_fit<C: Canvas>(
 }
 
 /// The sawing plan. Where the user names no stock: bars of 1 m, or of enough whole metres to
-/// hold every rod.
-fn sawing_plan(design: &Design, formed: &Formed) -> Result<CutPlan, BuildError> {
+/// hold every rod. `sawn` are rods that need not be sawn any more, in order.
+fn sawing_plan(design: &Design, formed: &Formed, sawn: &[RodId]) -> Result<CutPlan, BuildError> {
     let sticks = sticks(&formed.frame);
+    let open = || sticks.ids().filter(|rod| sawn.binary_search(rod).is_err());
     let mut stock = design.stock.clone();
     if stock.bars.iter().all(|bar| bar.at_hand) {
-        let longest = sticks.iter().map(|stick| stick.length).fold(0.0, f64::max);
+        let longest = open().map(|rod| sticks[rod].length).fold(0.0, f64::max);
         let metres = ((longest + 2.0 * stock.trim) / METRE).ceil().max(1.0);
         stock.bars.push(Offer::plain(metres * METRE));
     }
-    Ok(plan(&sticks, &stock)?)
+    Ok(plan_some(&sticks, open(), &stock)?)
 }
 
 /// Sticks are sold by the metre, mm.

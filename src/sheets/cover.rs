@@ -220,7 +220,13 @@ fn facts(
     if let Some(cost) = plan.cost() {
         block.text(&format!("cost {}", fixed(cost, 2)), width)?;
     }
-    block.text(&format!("{} of rod in all", units.total(plan.used())), width)?;
+    block.text(
+        &match plan.bars.is_empty() {
+            true => "nothing: all rods are sawn".into(),
+            false => format!("{} of rod in all", units.total(plan.used())),
+        },
+        width,
+    )?;
 
     let classes = classes(frame);
     block.heading("Lengths");

@@ -82,6 +82,9 @@ impl Saw<'_> {
     /// What is bought and sawn, how good the plan is, and how to read it.
     fn summary(&self, flow: &mut Flow, density: f64) -> Result<(), DrawingError> {
         let Self { plan, units, .. } = *self;
+        if plan.bars.is_empty() {
+            return flow.paragraph("Nothing: all rods are sawn.");
+        }
         let trim = if plan.trim > 0.0 {
             format!("; {} trimmed off both ends of every bar", units.measure(plan.trim))
         } else {

@@ -10,7 +10,7 @@ pub mod marks;
 pub mod saw;
 
 #[cfg(test)]
-pub(crate) mod fixture;
+pub(crate) use crate::frame::fixture;
 
 pub use feet::{Foot, feet};
 pub use lengths::{LengthClass, LengthClasses, Stick, classes};

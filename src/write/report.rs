@@ -1,15 +1,19 @@
 //! report.json: what was measured on the way and of the result. Lengths in mm,
 //! angles in degrees. It holds no times, so that the same run gives the same bytes.
 
+use super::figure::rounded;
 use crate::chart::Method;
 use crate::frame::Frame;
 use crate::frame::arrangement::Arrangement;
+use crate::frame::as_built::AsBuilt;
 use crate::frame::close::Closing;
 use crate::frame::fit::{Fit, FitBy};
 use crate::frame::guide::Guide;
 use crate::frame::measure::Measures;
 use crate::frame::relax::Relaxing;
 use crate::frame::share::Shared;
+use crate::frame::tolerance::{Misfit, TRIALS, UnitOff};
+use crate::ids::RodId;
 use crate::shop::saw::{Aim, CutPlan};
 use serde::Serialize;
 
@@ -34,6 +38,12 @@ pub struct Report {
     /// What sharing lengths came to, if rods do.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shared_lengths: Option<SharedLengths>,
+    /// What became of measurements on sticks, if there were any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub as_built: Option<Rebuilt>,
+    /// What errors of marks and diameters do, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<Tolerances>,
     pub dropped: Vec<DroppedUnit>,
 }
 
@@ -141,6 +151,58 @@ pub struct SharedLengths {
     pub own: Vec<String>,
 }
 
+/// A frame that was solved again with what was measured on its sticks.
+#[derive(Clone, Debug, Serialize)]
+pub struct Rebuilt {
+    /// Rods that are sawn: those with a measurement.
+    pub sawn: Vec<String>,
+    /// Marks that are held, and diameters that were measured.
+    pub marks: usize,
+    pub diameters: usize,
+    /// Largest distance left of a contact from its held mark, or of a sawn foot from the ground.
+    pub deviation: f64,
+    /// Largest error of a gap left, as part of the gap.
+    pub worst_gap: f64,
+    /// Largest change of a mark that is not held, and of a length that is not sawn.
+    pub mark_change: f64,
+    pub length_change: f64,
+    /// Rods with a mark, as planned or measured, that is off by more than 0.5 mm now.
+    pub mark_again: Vec<MarkAgain>,
+    /// Rods, not sawn, whose length is another one now.
+    pub saw_again: Vec<String>,
+}
+
+/// A rod to be marked again.
+#[derive(Clone, Debug, Serialize)]
+pub struct MarkAgain {
+    pub rod: String,
+    /// How far one of its marks is off at most.
+    pub change: f64,
+}
+
+/// How far last contacts of units are off where marks and diameters are not exact.
+#[derive(Clone, Debug, Serialize)]
+pub struct Tolerances {
+    /// Errors of marks and of diameters, ± two standard deviations.
+    pub marks: f64,
+    pub diameter: f64,
+    pub trials: usize,
+    pub seed: u32,
+    /// Over all units and trials.
+    pub median: f64,
+    pub p95: f64,
+    pub units: Vec<UnitTolerance>,
+}
+
+/// The same of one unit.
+#[derive(Clone, Debug, Serialize)]
+pub struct UnitTolerance {
+    pub id: String,
+    pub last_contact: String,
+    pub median: f64,
+    pub p95: f64,
+}
+
 /// A unit that was left out.
 #[derive(Clone, Debug, Serialize)]
 pub struct DroppedUnit {
@@ -219,6 +281,44 @@ pub fn shared(shared: &Shared) -> SharedLengths {
     let Shared { before, after, extra, kept, ref own } = *shared;
     let own = own.iter().map(ToString::to_string).collect();
     SharedLengths { before, after, extra, kept, own }
+}
+
+/// What became of measurements.
+pub fn as_built(what: &AsBuilt) -> Rebuilt {
+    let names = |rods: &[RodId]| rods.iter().map(RodId::to_string).collect();
+    let again = |&(rod, change): &(RodId, f64)| MarkAgain { rod: rod.to_string(), change };
+    Rebuilt {
+        sawn: names(&what.sawn),
+        marks: what.marks,
+        diameters: what.diameters,
+        deviation: what.deviation,
+        worst_gap: what.error,
+        mark_change: what.mark_change,
+        length_change: what.length_change,
+        mark_again: what.mark_again.iter().map(again).collect(),
+        saw_again: names(&what.saw_again),
+    }
+}
+
+/// What errors of marks and diameters do. Figures that are drawn by chance are given to a
+/// micrometre.
+pub fn tolerance(misfit: &Misfit) -> Tolerances {
+    let um = |mm: f64| rounded(mm, 3);
+    let unit = |u: &UnitOff| UnitTolerance {
+        id: u.unit.to_string(),
+        last_contact: u.contact.to_string(),
+        median: um(u.off.median),
+        p95: um(u.off.p95),
+    };
+    Tolerances {
+        marks: misfit.tolerance.marks,
+        diameter: misfit.tolerance.diameter,
+        trials: TRIALS,
+        seed: misfit.seed,
+        median: um(misfit.overall.median),
+        p95: um(misfit.overall.p95),
+        units: misfit.units.iter().map(unit).collect(),
+    }
 }
 
 /// The units left out, and why.

@@ -6,6 +6,7 @@
 
 use super::figure::figure;
 use super::structure::ContactKindName;
+use crate::frame::tolerance::{Misfit, UnitOff};
 use crate::frame::{End, Frame};
 use crate::ids::{ContactId, IdVec, RodId};
 use crate::shop::feet;
@@ -51,6 +52,9 @@ pub const CONTACTS: [&str; 10] = [
 /// The columns of `supports.csv`.
 pub const SUPPORTS: [&str; 7] =
     ["rod", "end", "x", "y", "elevation_deg", "azimuth_deg", "bevel_deg"];
+
+/// The columns of `tolerance.csv`: how far the last contact of each unit is off.
+pub const TOLERANCE: [&str; 4] = ["unit", "last_contact", "median_mm", "p95_mm"];
 
 /// Why a table could not be made.
 #[derive(Error, Debug)]
@@ -173,6 +177,18 @@ pub fn supports(frame: &Frame) -> Result<Vec<u8>, TableError> {
         ]
     };
     table("supports.csv", &SUPPORTS, feet::feet(frame).into_iter().map(row))
+}
+
+/// The bytes of `tolerance.csv`.
+///
+/// # Errors
+/// [`TableError`], which none of its figures causes.
+pub fn tolerance(misfit: &Misfit) -> Result<Vec<u8>, TableError> {
+    let row = |u: &UnitOff| {
+        let off = [u.off.median, u.off.p95].map(length);
+        [u.unit.to_string(), u.contact.to_string()].into_iter().chain(off).collect()
+    };
+    table("tolerance.csv", &TOLERANCE, misfit.units.iter().map(row))
 }
 
 /// A header and rows as the bytes of a CSV file.

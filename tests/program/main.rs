@@ -1,5 +1,6 @@
 //! The program, run as a user runs it.
 
+mod as_built;
 mod building;
 mod check;
 mod converting;
@@ -14,3 +15,4 @@ mod samples;
 mod sawing;
 mod sizes;
 mod tiles;
+mod tolerance;

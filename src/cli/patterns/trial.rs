@@ -103,14 +103,22 @@ fn settings(surface: &Path) -> Result<(Settings, Option<&Path>), Failure> {
         return Ok((Settings { surface: Some(surface.into()), ..Settings::default() }, None));
     }
     let read = Settings::read(surface).map_err(design_failure)?;
-    let settings = Settings { cycle: None, turn: None, slide: None, ..read };
+    let settings = Settings {
+        cycle: None,
+        turn: None,
+        slide: None,
+        as_built: None,
+        tolerance: None,
+        seed: None,
+        ..read
+    };
     Ok((settings, surface.parent()))
 }
 
 /// The design of a pattern, by its name or file, with these settings.
 pub fn design(settings: &Settings, folder: Option<&Path>, name: &str) -> Result<Design, Failure> {
     let settings = Settings { pattern: Some(name.into()), ..settings.clone() };
-    let folders = Folders { surface: folder, pattern: None };
+    let folders = Folders { surface: folder, ..Folders::default() };
     let design = settings.resolve(folders).map_err(design_failure)?;
     match design.tiles {
         Tiles::Pattern(_) => Ok(design),

@@ -53,6 +53,18 @@ pub fn plan(sticks: &IdVec<RodId, Stick>, stock: &Stock) -> Result<CutPlan, CutE
     plan_by(sticks, stock, Effort::Full)
 }
 
+/// As [`plan`], for some of the rods: those that are not sawn yet.
+///
+/// # Errors
+/// As [`plan`].
+pub fn plan_some(
+    sticks: &IdVec<RodId, Stick>,
+    rods: impl Iterator<Item = RodId>,
+    stock: &Stock,
+) -> Result<CutPlan, CutError> {
+    plan_rods(rods.map(|rod| (rod, sticks[rod])).collect(), stock, Effort::Full)
+}
+
 /// How much is done for a good plan.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Effort {
@@ -71,8 +83,15 @@ pub fn plan_by(
     stock: &Stock,
     effort: Effort,
 ) -> Result<CutPlan, CutError> {
+    plan_rods(sticks.enumerate().map(|(r, s)| (r, *s)).collect(), stock, effort)
+}
+
+fn plan_rods(
+    mut rods: Vec<(RodId, Stick)>,
+    stock: &Stock,
+    effort: Effort,
+) -> Result<CutPlan, CutError> {
     stock.check()?;
-    let mut rods: Vec<(RodId, Stick)> = sticks.enumerate().map(|(r, s)| (r, *s)).collect();
     rods.sort_by(|a, b| thinner(&a.1.diameters, &b.1.diameters).then(a.0.cmp(&b.0)));
     let Stock { kerf, trim, keep, .. } = *stock;
     let aim = aim(stock);
