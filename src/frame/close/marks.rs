@@ -5,7 +5,9 @@
 //! held how each lies to the mean of all: with p the places of the contacts along the axis and
 //! m the marks,
 //!
-//!     p − mean p = m − mean m.
+//! ```text
+//! p − mean p = m − mean m.
+//! ```
 //!
 //! One of these follows from the others, and those of many rods may contradict each other;
 //! so marks give way a little, as bounds do.

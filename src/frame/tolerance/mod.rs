@@ -5,7 +5,9 @@
 //! marks: inside the frame it has four contacts, so its place is given by more marks than it
 //! has freedoms. With every error small, the moves x of the rods are those that make
 //!
-//!     Σ (Jm x − e)² + FIRM · Σ (Jg x − d)² + STAY · |x|²
+//! ```text
+//! Σ (Jm x − e)² + FIRM · Σ (Jg x − d)² + STAY · |x|²
+//! ```
 //!
 //! least: e are the errors of the marks and Jm the gradients of the contacts' places along their
 //! rods, Jg those of gaps and d the sums of the errors of the two radii. Sticks are pressed
