@@ -4,6 +4,11 @@
 //!
 //! Rows are some hundred and the inverse is dense. What is made of the prices and values has to
 //! allow for their noise.
+//!
+//! Of libraries, microlp 0.7 gives no prices, and on the dual with cuts took 36 s for 1000 rods.
+//! clarabel 0.11, an interior point solver that starts anew each round, its solution taken as it
+//! is and not moved to a vertex, took six times as long on 69 random tasks, with 56 plans proven
+//! for 57 and 2 worse for 1 better.
 
 use super::work::Work;
 
