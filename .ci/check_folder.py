@@ -4,8 +4,9 @@
 usage: check_folder.py TOOLS OUT [--everything]
 
 Khronos' glTF validator (0 errors, 0 warnings), qpdf, pdftotext (every rod number is
-found), rsvg-convert on every SVG (with --everything, else on the first). Exit status 0
-when all are content.
+found), ezdxf (nothing to mend; a circle at every foot), rsvg-convert on every SVG (with
+--everything, else on the first). Exit status 0 when all are content. To be run by a
+Python that has ezdxf.
 """
 import csv
 import json
@@ -13,6 +14,8 @@ import pathlib
 import re
 import subprocess
 import sys
+
+import ezdxf
 
 VALIDATE = """
 const fs = require('fs'), validator = require('gltf-validator');
@@ -46,6 +49,43 @@ def check_pdfs(out, rods):
         sys.exit(f"{out}/sheets.pdf does not name {missing[:5]}")
 
 
+def check_dxf(file, structure):
+    drawing = ezdxf.readfile(file)
+    audit = drawing.audit()
+    if audit.errors or audit.fixes:
+        sys.exit(f"{file}: {[e.message for e in (audit.errors + audit.fixes)[:5]]}")
+    if (drawing.dxfversion, drawing.header["$INSUNITS"]) != ("AC1015", 4):
+        sys.exit(f"{file}: not release 2000 in mm")
+    # A file that lost its end passes the audit, so everything is counted.
+    supports = structure["supports"]
+    count = {}
+    for entity in drawing.modelspace():
+        key = entity.dxftype(), entity.dxf.layer
+        count[key] = count.get(key, 0) + 1
+    feet = len(supports)
+    for key, expected in {
+        ("CIRCLE", "FEET"): feet,
+        ("LINE", "CENTRES"): 2 * feet,
+        ("LINE", "HEADINGS"): feet,
+        ("LWPOLYLINE", "HEADINGS"): feet,
+        ("LINE", "CHORDS"): {0: 0, 1: 0, 2: 1}.get(feet, feet),
+        ("LINE", "TITLE"): 3,
+    }.items():
+        if count.get(key, 0) != expected:
+            sys.exit(f"{file}: {count.get(key, 0)} of {key}, not {expected}")
+    circles = drawing.modelspace().query('CIRCLE[layer=="FEET"]')
+    numbers = {t.dxf.text for t in drawing.modelspace().query('TEXT[layer=="NUMBERS"]')}
+    for circle, support in zip(circles, supports):
+        away = [abs(a - b) for a, b in zip(circle.dxf.center, support["point"][:2])]
+        if max(away) > 1e-6 or support["rod"] not in numbers:
+            sys.exit(f"{file}: the foot of {support['rod']} is off by {away} or has no number")
+    low, high = drawing.header["$EXTMIN"], drawing.header["$EXTMAX"]
+    for circle in circles:
+        center, radius = circle.dxf.center, circle.dxf.radius
+        if not all(low[i] <= center[i] - radius <= center[i] + radius <= high[i] for i in (0, 1)):
+            sys.exit(f"{file}: {center} lies outside the extent {low} to {high}")
+
+
 def check_svgs(files):
     for file in files:
         # Drawn small: what matters is that every element is understood.
@@ -58,6 +98,8 @@ def main():
         rods = [row["id"] for row in csv.DictReader(f)]
     check_glb(tools, out / "model.glb")
     check_pdfs(out, rods)
+    structure = json.loads((out / "structure.json").read_text(encoding="utf-8"))
+    check_dxf(out / "support-map.dxf", structure)
     svgs = sorted(out.rglob("*.svg"))
     check_svgs(svgs if "--everything" in sys.argv else svgs[:1])
     print(f"{out}: {len(rods)} rods, model, papers and {len(svgs)} drawings read well")

@@ -2,7 +2,7 @@
 
 use crate::design::{Design, Part};
 use crate::drawing::pdf::{self, DocumentInfo, Page};
-use crate::drawing::{DrawingError, svg};
+use crate::drawing::{DrawingError, dxf, svg};
 use crate::frame::arrangement::arrangement;
 use crate::frame::share::Shared;
 use crate::pipeline::Model;
@@ -118,6 +118,8 @@ fn add_sheets(design: &Design, model: &Model, files: &mut Files) -> Result<(), D
 fn add_support_map(design: &Design, model: &Model, files: &mut Files) -> Result<(), DocumentError> {
     let (frame, settings) = (&model.formed.frame, sheet_settings(design, model));
     files.add("support-map.svg", svg::render(&support_map::drawing(frame, &settings)?)?);
+    let (map, origin) = support_map::full_size(frame, &settings)?;
+    files.add("support-map.dxf", dxf::render(&map, origin)?);
     let sheets = support_map::pages(frame, &settings)?;
     files.add("support-map.pdf", bound(sheets, design, "support map")?);
     Ok(())

@@ -11,8 +11,10 @@ use std::path::{Path, PathBuf};
 #[derive(clap::Args)]
 #[command(
     after_help = "Surfaces go to all of these formats, structures, with a cylinder for each \
-                        rod, to glb, obj, stl and stl-ascii. Files are in mm with z up, glTF in \
-                        metres with y up. stl, glb and gltf hold seven digits, the others all."
+                        rod, to glb, obj, stl and stl-ascii, and to dxf with the axis of each rod \
+                        as a line, on a layer for each class of lengths. Files are in mm with z \
+                        up, glTF in metres with y up. stl, glb and gltf hold seven digits, dxf \
+                        six decimals, the others all digits."
 )]
 pub struct Args {
     /// A surface file, a folder written by rodwright, or its structure.json

@@ -54,7 +54,7 @@ pub enum Part {
     Glb,
     /// sheets.pdf, sheets/*.svg
     Sheets,
-    /// support-map.svg, support-map.pdf
+    /// support-map.svg, support-map.pdf, support-map.dxf
     SupportMap,
     /// footprint.svg: the flattened surface on its pattern.
     Footprint,

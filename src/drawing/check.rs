@@ -1,4 +1,4 @@
-//! What every renderer asks of a drawing before it starts.
+//! What the renderers ask of a drawing before it starts.
 
 use super::{Drawing, DrawingError, Item, Shape};
 
@@ -12,6 +12,11 @@ pub(super) fn check(drawing: &Drawing) -> Result<(), DrawingError> {
     if !fits(width) || !fits(height) {
         return Err(DrawingError::SheetSize { width, height });
     }
+    check_items(drawing)
+}
+
+/// Refuses numbers that are not finite.
+pub(super) fn check_items(drawing: &Drawing) -> Result<(), DrawingError> {
     for layer in &drawing.layers {
         if let Some(i) = layer.items.iter().position(|item| !is_finite(item)) {
             let place = format!("layer {}, item {}", layer.name, i + 1);

@@ -65,17 +65,17 @@ fn rings(shape: &Shape) -> Vec<Vec<Point>> {
         Shape::Area(rings) => rings.clone(),
         Shape::Circle { center, radius } => {
             let (start, cubics) = circle_cubics(*center, *radius);
-            vec![flatten(start, &cubics)]
+            vec![flatten(start, &cubics, FLATNESS)]
         }
-        Shape::Curve { start, cubics, .. } => vec![flatten(*start, cubics)],
+        Shape::Curve { start, cubics, .. } => vec![flatten(*start, cubics, FLATNESS)],
     }
 }
 
-/// Points along Bézier curves, no further from them than [`FLATNESS`].
+/// Points along Bézier curves, no further from them than `flatness` (mm).
 ///
 /// With n equal steps the chords of a cubic stray at most M/(8n²), where M bounds
 /// its second derivative: 6 times the largest second difference of its points.
-fn flatten(start: Point, cubics: &[[Point; 3]]) -> Vec<Point> {
+pub(super) fn flatten(start: Point, cubics: &[[Point; 3]], flatness: f64) -> Vec<Point> {
     let mut points = vec![start];
     let mut from = start;
     for &[a, b, to] in cubics {
@@ -83,7 +83,7 @@ fn flatten(start: Point, cubics: &[[Point; 3]]) -> Vec<Point> {
             (p[0] - 2.0 * q[0] + r[0]).hypot(p[1] - 2.0 * q[1] + r[1])
         };
         let second = 6.0 * bend(from, a, b).max(bend(a, b, to));
-        let steps = (second / (8.0 * FLATNESS)).sqrt().ceil().max(1.0);
+        let steps = (second / (8.0 * flatness)).sqrt().ceil().max(1.0);
         for i in 1..=steps as usize {
             let t = i as f64 / steps;
             let u = 1.0 - t;

@@ -1,4 +1,4 @@
-//! Drawings in millimetres: drawn once, rendered to SVG and PDF.
+//! Drawings in millimetres: drawn once, rendered to SVG, PDF and DXF.
 //!
 //! A [`Drawing`] is a sheet of a given size with named layers of [`Item`]s. The
 //! origin is the top left corner and y points down, as on a screen. Everything is
@@ -18,11 +18,12 @@
 //!
 //! The room knows no rods and no paper formats. Its parts: what can be drawn
 //! (`item`, `style`), the builders (`draw`), moving and cutting groups of items
-//! (`place`, `clip`), the one font ([`font`]) and the renderers ([`svg`], [`pdf`]).
+//! (`place`, `clip`), the one font ([`font`]) and the renderers ([`svg`], [`pdf`], [`dxf`]).
 
 mod check;
 mod clip;
 mod draw;
+pub mod dxf;
 mod error;
 pub mod font;
 mod geometry;

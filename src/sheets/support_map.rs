@@ -32,11 +32,18 @@ const MIDDLE: f64 = 8.0;
 const AXES: f64 = 22.0;
 
 /// Layer of chords between neighbouring feet.
-pub(super) const GUIDES: &str = "guides";
-/// Layer of circles, crosses and arrows.
-pub(super) const FEET: &str = "feet";
-/// Layer of numbers.
+pub(super) const CHORDS: &str = "chords";
+/// Layer of the circles of the feet, as wide as the rods.
+const FEET: &str = "feet";
+/// Layer of the crosses on the centres of the feet.
+const CENTRES: &str = "centres";
+/// Layer of arrows that show where the rods head.
+const HEADINGS: &str = "headings";
+/// Layer of the model's middle and its axes.
+const MIDDLE_LAYER: &str = "middle";
+/// Layer of the numbers of the feet and the words at the middle.
 pub(super) const NUMBERS: &str = "numbers";
+/// Layer of the title and the scale bar.
 const TITLE_LAYER: &str = "title";
 
 /// What is said where nothing stands on the ground.
@@ -50,9 +57,28 @@ pub(super) const NO_FEET: &str = "No rod of this frame stands on the ground, so 
 /// # Errors
 /// [`SheetError::Drawing`] if the frame holds numbers that are not finite.
 pub fn drawing(frame: &Frame, settings: &SheetSettings) -> Result<Drawing, SheetError> {
-    let settings = settings.checked()?;
     let map = FootMap::new(frame);
     let n = map.scale();
+    Ok(sheet(frame, &map, n, settings)?.0)
+}
+
+/// The same at full size however large it is, for CAD files, and where on it the model's
+/// origin lies.
+///
+/// # Errors
+/// As [`drawing`].
+pub fn full_size(frame: &Frame, settings: &SheetSettings) -> Result<(Drawing, Point), SheetError> {
+    sheet(frame, &FootMap::new(frame), 1.0, settings)
+}
+
+/// The map at 1:n with its title and scale bar, and where the model's origin lies on it.
+fn sheet(
+    frame: &Frame,
+    map: &FootMap,
+    n: f64,
+    settings: &SheetSettings,
+) -> Result<(Drawing, Point), SheetError> {
+    let settings = settings.checked()?;
     let extent = map.extent(n);
     let title = format!("{}: support map", settings.model);
     let facts =
@@ -62,8 +88,9 @@ pub fn drawing(frame: &Frame, settings: &SheetSettings) -> Result<Drawing, Sheet
     let words = if map.feet.is_empty() { words.max(NO_FEET_WIDTH) } else { words };
     let width = extent.width().max(words + 20.0).max(BAR + 40.0);
     let mut sheet = Drawing::new(width, extent.height() + ABOVE + BELOW);
-    let place = Placement::at([width / 2.0 - extent.center()[0], ABOVE - extent.min[1]]);
-    sheet.place_drawing(&map.draw(n, &mut Vec::new(), Numbers::All)?, &place);
+    let origin = [width / 2.0 - extent.center()[0], ABOVE - extent.min[1]];
+    let drawn = map.draw(n, &mut Vec::new(), Numbers::All)?;
+    sheet.place_drawing(&drawn, &Placement::at(origin));
     let top = sheet.layer(TITLE_LAYER);
     top.text([10.0, 10.0], TITLE, title).bold();
     top.text([10.0, 15.5], BODY, facts);
@@ -72,7 +99,7 @@ pub fn drawing(frame: &Frame, settings: &SheetSettings) -> Result<Drawing, Sheet
         top.text_lines([10.0, 24.0], BODY, BODY * 1.3, Default::default(), lines);
     }
     scale_bar(top, [10.0, ABOVE + extent.height() + 4.0], n, settings.units);
-    Ok(sheet)
+    Ok((sheet, origin))
 }
 
 /// Least width of the sheet where it only says that there are no feet, mm.
@@ -159,7 +186,7 @@ impl FootMap {
         let mut map = Drawing::new(1.0, 1.0);
         let at = |f: &Foot| Self::place(f.x, f.y, n);
         let chord = Stroke::new(0.15).color(Color::GREY).dash(Dash::DASH_DOT);
-        let guides = map.layer(GUIDES);
+        let guides = map.layer(CHORDS);
         for (i, foot) in self.feet.iter().enumerate() {
             // With two feet both chords are the same.
             if let Some(next) = foot.next.filter(|next| self.feet.len() > 2 || next.index > i) {
@@ -168,10 +195,9 @@ impl FootMap {
         }
         let radius = |foot: &Foot| foot.diameter / 2.0 / n;
         let small = n > 1.0;
-        let feet = map.layer(FEET);
         for foot in &self.feet {
             let radius = radius(foot);
-            draw_foot(feet, foot, at(foot), radius, small);
+            draw_foot(&mut map, foot, at(foot), radius, small);
             taken.push(Rect::new(at(foot), [0.0; 2]).inset(-reach(radius, small)));
             taken.push(arrow_box(foot, at(foot), radius, small));
         }
@@ -200,12 +226,12 @@ impl FootMap {
         let length = if n > 1.0 { AXES / 2.0 } else { AXES };
         let cross = if n > 1.0 { MIDDLE / 2.0 } else { MIDDLE };
         let pen = Stroke::new(0.25);
-        let feet = map.layer(FEET);
-        feet.line([x - cross, y], [x + cross, y], pen);
-        feet.line([x, y - cross], [x, y + cross], pen);
-        feet.circle([x, y], cross / 4.0, pen);
-        feet.arrow([x, y], [x + length, y], 2.5, pen);
-        feet.arrow([x, y], [x, y - length], 2.5, pen);
+        let lines = map.layer(MIDDLE_LAYER);
+        lines.line([x - cross, y], [x + cross, y], pen);
+        lines.line([x, y - cross], [x, y + cross], pen);
+        lines.circle([x, y], cross / 4.0, pen);
+        lines.arrow([x, y], [x + length, y], 2.5, pen);
+        lines.arrow([x, y], [x, y - length], 2.5, pen);
         taken.push(Rect::new([x, y - length], [length, length]).inset(-1.0));
         let texts = map.layer(NUMBERS);
         let zero = texts.text([x + length + 1.0, y], SMALL, "0° (x)").vcenter().clone();
@@ -219,14 +245,15 @@ impl FootMap {
 }
 
 /// Circle, centre cross and arrow of a foot.
-fn draw_foot(out: &mut impl Draw, foot: &Foot, [x, y]: Point, radius: f64, small: bool) {
+fn draw_foot(map: &mut Drawing, foot: &Foot, [x, y]: Point, radius: f64, small: bool) {
     let pen = Stroke::new(0.2);
-    out.circle([x, y], radius, Stroke::new(0.25));
+    map.layer(FEET).circle([x, y], radius, Stroke::new(0.25));
     let reach = reach(radius, small);
-    out.line([x - reach, y], [x + reach, y], pen);
-    out.line([x, y - reach], [x, y + reach], pen);
+    let centres = map.layer(CENTRES);
+    centres.line([x - reach, y], [x + reach, y], pen);
+    centres.line([x, y - reach], [x, y + reach], pen);
     let (from, to) = arrow(foot, [x, y], radius, small);
-    out.arrow(from, to, if small { 1.6 } else { 2.6 }, Stroke::new(0.3));
+    map.layer(HEADINGS).arrow(from, to, if small { 1.6 } else { 2.6 }, Stroke::new(0.3));
 }
 
 /// Half the size of the cross of a foot, mm.

@@ -6,7 +6,7 @@
 
 use super::format::{angle, heading};
 use super::page::{BODY, Column, Flow, Leaf, SMALL, THIN, Table};
-use super::support_map::{FEET, FootMap, NO_FEET, NUMBERS, Numbers};
+use super::support_map::{CHORDS, FootMap, NO_FEET, NUMBERS, Numbers};
 use super::{SheetError, SheetSettings, page};
 use crate::drawing::{
     Anchor, Color, Draw, Drawing, DrawingError, Item, Placement, Point, Rect, Stroke,
@@ -200,11 +200,11 @@ impl Tiling {
         self.rect([0, 0]).union(&self.rect(self.count.map(|c| c - 1)))
     }
 
-    /// The tiles with anything but guides on them, row by row.
+    /// The tiles with anything but chords and words on them, row by row.
     fn used(&self, map: &Drawing) -> Vec<Place> {
-        let feet = || map.layers.iter().filter(|l| l.name == FEET);
+        let marks = || map.layers.iter().filter(|l| l.name != CHORDS && l.name != NUMBERS);
         let holds =
-            |place: &Place| feet().any(|layer| !clip(&layer.items, self.rect(*place)).is_empty());
+            |place: &Place| marks().any(|layer| !clip(&layer.items, self.rect(*place)).is_empty());
         let all = (0..self.count[1]).flat_map(|row| (0..self.count[0]).map(move |c| [c, row]));
         all.filter(holds).collect()
     }

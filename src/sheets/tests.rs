@@ -275,6 +275,25 @@ fn a_huge_footprint_is_drawn_smaller_and_says_so() {
 }
 
 #[test]
+fn a_huge_footprint_is_at_full_size_for_cad() {
+    let frame = huge();
+    let settings = settings(Paper::A4, PaperUnits::Mm);
+    let (map, origin) = support_map::full_size(&frame, &settings).unwrap();
+    assert!(map.width.max(map.height) > 5080.0, "larger than PDF allows");
+    assert!(texts(&map).any(|t| t.string.contains("scale 1:1 ")));
+    let circles = map.layers.iter().find(|l| l.name == "feet").unwrap();
+    assert_eq!(circles.items.len(), frame.supports.len());
+    for (item, foot) in circles.items.iter().zip(feet(&frame)) {
+        let Item::Figure(Figure { shape: Shape::Circle { center, radius }, .. }) = item else {
+            panic!("not a circle: {item:?}")
+        };
+        let [x, y] = [center[0] - origin[0], origin[1] - center[1]];
+        assert!((x - foot.x).hypot(y - foot.y) < 1e-9 && *radius == foot.diameter / 2.0);
+    }
+    assert!(crate::drawing::dxf::render(&map, origin).is_ok());
+}
+
+#[test]
 fn pages_are_named_in_order_and_render() {
     let frame = fixture::circuit(4, 3.0);
     let settings =

@@ -1,5 +1,6 @@
 //! The formats that surfaces and structures are converted to, and their names.
 
+use super::dxf::{axes_dxf, mesh_dxf};
 use super::glb::{GlbError, glb, mesh_glb, mesh_gltf};
 use super::obj::write_obj_exact;
 use super::off::write_off;
@@ -30,10 +31,13 @@ pub enum Format {
     Glb,
     /// glTF as text that holds its buffer, metres, y up, single precision.
     Gltf,
+    /// DXF of release 2000, mm, z up: surfaces as faces, structures as lines, the axes of
+    /// their rods, on a layer for each class of lengths.
+    Dxf,
 }
 
 /// Every format with its name, and whether a file's ending calls for it.
-const NAMES: [(Format, &str, bool); 8] = [
+const NAMES: [(Format, &str, bool); 9] = [
     (Format::Obj, "obj", true),
     (Format::Stl, "stl", true),
     (Format::StlAscii, "stl-ascii", false),
@@ -42,6 +46,7 @@ const NAMES: [(Format, &str, bool); 8] = [
     (Format::Off, "off", true),
     (Format::Glb, "glb", true),
     (Format::Gltf, "gltf", true),
+    (Format::Dxf, "dxf", true),
 ];
 
 impl Format {
@@ -51,7 +56,8 @@ impl Format {
     }
 
     /// Those that structures are written in.
-    pub const FOR_STRUCTURES: [Self; 4] = [Self::Glb, Self::Obj, Self::Stl, Self::StlAscii];
+    pub const FOR_STRUCTURES: [Self; 5] =
+        [Self::Glb, Self::Obj, Self::Stl, Self::StlAscii, Self::Dxf];
 
     /// The format that a file's ending calls for, in upper or lower case.
     pub fn of_file(path: &Path) -> Option<Self> {
@@ -88,6 +94,7 @@ pub fn surface_file(mesh: &Mesh, format: Format) -> Result<Vec<u8>, GlbError> {
         Format::Off => write_off(mesh).into_bytes(),
         Format::Glb => mesh_glb(mesh)?,
         Format::Gltf => mesh_gltf(mesh)?.into_bytes(),
+        Format::Dxf => mesh_dxf(mesh).into_bytes(),
     })
 }
 
@@ -102,6 +109,7 @@ pub fn structure_file(structure: &Structure, format: Format) -> Result<Option<Ve
         Format::Obj => rods_obj(structure).into_bytes(),
         Format::Stl => rods_stl(structure),
         Format::StlAscii => rods_stl_text(structure).into_bytes(),
+        Format::Dxf => axes_dxf(structure).into_bytes(),
         Format::Ply | Format::PlyAscii | Format::Off | Format::Gltf => return Ok(None),
     }))
 }

@@ -2,6 +2,7 @@
 
 pub mod convert;
 pub mod cutlist;
+pub mod dxf;
 mod figure;
 pub mod file;
 pub mod folder;

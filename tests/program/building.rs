@@ -89,6 +89,7 @@ fn a_run_writes_every_file_of_the_folder_and_the_same_bytes_twice() {
         "sheets.pdf",
         "support-map.svg",
         "support-map.pdf",
+        "support-map.dxf",
         "footprint.svg",
         "pictures/histograms.svg",
         "sheets/02-figures.svg",
@@ -100,6 +101,47 @@ fn a_run_writes_every_file_of_the_folder_and_the_same_bytes_twice() {
     assert_eq!(first.keys().collect::<Vec<_>>(), second.keys().collect::<Vec<_>>());
     for (name, bytes) in &first {
         assert!(bytes == &second[name], "{name} differs between two runs");
+    }
+}
+
+/// Centres of the circles on a layer of a DXF file, with their radii.
+fn dxf_circles(text: &str, layer: &str) -> Vec<[f64; 3]> {
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    let pairs: Vec<_> = lines.chunks(2).map(|p| (p[0], p[1])).collect();
+    let starts = (0..pairs.len()).filter(|&i| pairs[i] == ("0", "CIRCLE"));
+    let circles = starts.map(|i| {
+        let end = i + 1 + pairs[i + 1..].iter().position(|p| p.0 == "0").unwrap();
+        pairs[i..end].to_vec()
+    });
+    circles
+        .filter(|c| c.contains(&("8", layer)))
+        .map(|c| {
+            ["10", "20", "40"]
+                .map(|code| c.iter().find(|p| p.0 == code).unwrap().1.parse().unwrap())
+        })
+        .collect()
+}
+
+#[test]
+fn circles_of_the_support_map_in_cad_stand_at_the_feet() {
+    let dir = tempdir().unwrap();
+    rodwright(dir.path())
+        .args(["build", &sample("train-station.obj"), "-o", "out", "--only", "support-map"])
+        .assert()
+        .success();
+    let text = std::fs::read_to_string(dir.path().join("out/support-map.dxf")).unwrap();
+    let structure = structure(&dir.path().join("out"));
+    let feet: Vec<[f64; 2]> = structure["supports"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|s| [0, 1].map(|i| s["point"][i].as_f64().unwrap()))
+        .collect();
+    let circles = dxf_circles(&text, "FEET");
+    assert!(circles.len() == feet.len() && feet.len() > 10);
+    for ([cx, cy, radius], [x, y]) in circles.iter().zip(feet) {
+        assert!((cx - x).abs() <= 1e-6 && (cy - y).abs() <= 1e-6, "{cx} {cy}: {x} {y}");
+        assert_eq!(*radius, 1.5);
     }
 }
 

@@ -55,6 +55,7 @@ fn the_ending_or_the_option_names_the_format() {
         (&["a.off", "--to", "obj"], b"# millimetres, z up\nv "),
         (&["a.glb"], b"glTF\x02\0\0\0"),
         (&["a.gltf"], b"{"),
+        (&["a.dxf"], b"  0\nSECTION\n  2\nHEADER\n"),
     ] {
         convert(dir, &[&[igloo.as_str()], args].concat());
         assert!(read(dir, args[0]).starts_with(start), "{args:?}");
@@ -97,9 +98,12 @@ fn a_structure_becomes_its_rods() {
     let page = String::from_utf8(output.stdout).unwrap();
     assert!(page.contains(&format!("and {} smaller pieces", rods - 12)), "{page}");
     assert!(page.contains("(closed)"), "{page}");
+    convert(dir, &["out", "rods.dxf"]);
+    let text = String::from_utf8(read(dir, "rods.dxf")).unwrap();
+    assert_eq!(text.lines().filter(|l| *l == "LINE").count(), rods);
     let (status, message) = refused(dir, &["out", "rods.ply"]);
     assert_eq!(status, 2);
-    assert!(message.contains("only as glb, obj, stl, stl-ascii"), "{message}");
+    assert!(message.contains("only as glb, obj, stl, stl-ascii, dxf"), "{message}");
     assert_eq!(refused(dir, &["out", "rods.glb", "--cut", "z=3"]).0, 2);
 }
 
