@@ -10,7 +10,7 @@ mod document;
 mod file;
 mod tables;
 
-pub use document::{Document, Entity, Kind, Label, Layer};
+pub use document::{Document, Entity, Kind, Label, Layer, layer_name};
 
 use super::check::check_items;
 use super::clip::flatten;
