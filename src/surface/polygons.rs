@@ -202,7 +202,8 @@ impl Faces<'_> {
         first.iter().filter(|first| !**first).count()
     }
 
-    /// Refuses faces whose outline is not simple.
+    /// Refuses faces whose outline is not simple. Skew ones are looked at both ways round, as
+    /// they may be turned: on the brink of crossing, rounding decides.
     fn check_outlines(&self) -> Result<(), MendError> {
         for (corners, &number) in self.faces.iter().zip(&self.numbers) {
             let face = FaceId::new(number);
@@ -211,11 +212,14 @@ impl Faces<'_> {
             if let Some(twice) = sorted.windows(2).find(|w| w[0] == w[1]) {
                 return Err(MendError::MeetsItself { face, vertex: twice[0] });
             }
-            let at: Vec<Point3> = corners.iter().map(|&v| self.points[v]).collect();
-            triangulate(&at).map_err(|e| match e {
-                Uncut::Crossed => MendError::Crossed { face },
-                Uncut::TooMany => MendError::TooManyCorners { face, corners: corners.len() },
-            })?;
+            let mut at: Vec<Point3> = corners.iter().map(|&v| self.points[v]).collect();
+            for _ in 0..2 {
+                triangulate(&at).map_err(|e| match e {
+                    Uncut::Crossed => MendError::Crossed { face },
+                    Uncut::TooMany => MendError::TooManyCorners { face, corners: corners.len() },
+                })?;
+                at[1..].reverse();
+            }
         }
         Ok(())
     }

@@ -128,6 +128,17 @@ fn a_figure_of_eight_without_net_area_is_crossed_and_not_flat() {
     assert_eq!(error, MendError::Crossed { face: FaceId::new(0) });
 }
 
+/// A skew square with a spike back to itself: whether it crosses hung on which way round it was
+/// looked at, and it was turned in between.
+#[test]
+fn a_face_on_the_brink_of_crossing_is_told_the_same_both_ways_round() {
+    let points = [[-2.0, -2.0, 0.0], [-1.0, -2.0, 2.0], [-1.0, 1.0, -1.0], [0.0; 3]];
+    let crossed = Err(MendError::Crossed { face: FaceId::new(0) });
+    for face in [[0, 1, 2, 3], [0, 3, 2, 1]] {
+        assert_eq!(mend_polygons(mesh(&points, &[&face])), crossed);
+    }
+}
+
 #[test]
 fn a_polygon_of_too_many_corners_is_refused_before_work_is_done() {
     let n = MOST_CORNERS + 1;
