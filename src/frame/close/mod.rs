@@ -16,7 +16,9 @@ pub mod marks;
 mod projector;
 pub mod shape;
 mod steps;
+mod system;
 pub(super) mod touch;
+mod unit_terms;
 
 use super::axis::Axis;
 use super::gaps::{Joint, Row, rows};

@@ -1,7 +1,8 @@
 use super::bounds::{Bounds, Limits};
 use super::equations::{Equations, Move, Moves, moved};
 use super::marks::Marks;
-use super::shape::{Circuit, UnitTerms};
+use super::shape::{Circuit, Weights};
+use super::unit_terms::{Scale, UnitTerms};
 use super::*;
 use crate::chart::SurfacePoint;
 use crate::frame::close::across::{Across, Bases};
@@ -105,13 +106,20 @@ fn gradients_of_shapes_agree_with_finite_differences() {
     let (axes, joints) = circuit(5, 3.0);
     let circuit = wanted(&joints, [1.0, 2.0, 3.0]);
     let bases: Bases = axes.iter().map(Across::new).collect();
+    let scale =
+        Scale { edge: 40.0, weights: Weights { sides: 2.0, ..Weights::PAPER }, strain: 0.7 };
     let terms = |axes: &Axes| {
         let mut terms = UnitTerms::default();
-        terms.fill(axes, &bases, &joints, &circuit, 40.0).unwrap();
+        terms.fill(axes, &bases, &joints, &circuit, &scale).unwrap();
         terms
     };
     let (base, h) = (terms(&axes), 1e-5);
-    assert_eq!(base.values.len(), 1 + 5 + 5);
+    let there = |axes: &Axes| {
+        let mut moved = base.clone();
+        moved.revalue(&terms(axes), &scale);
+        moved.values
+    };
+    assert_eq!(base.values.len(), 1 + 5 + 5 + 3 * 5);
     let width = Across::WAYS * base.rods.len();
     for (i, &rod) in base.rods.iter().enumerate() {
         for way in 0..Across::WAYS {
@@ -119,7 +127,7 @@ fn gradients_of_shapes_agree_with_finite_differences() {
             ways[way] = 1.0;
             let mut moves: Moves = vec![Move::zeros(); axes.len()].into();
             moves[rod] = bases[rod].to_move(&ways);
-            let [plus, minus] = [h, -h].map(|h| terms(&moved(&axes, &moves, h)).values);
+            let [plus, minus] = [h, -h].map(|h| there(&moved(&axes, &moves, h)));
             for (k, row) in base.rows.chunks_exact(width).enumerate() {
                 let numeric = (plus[k] - minus[k]) / (2.0 * h);
                 let exact = row[Across::WAYS * i + way];
@@ -216,7 +224,7 @@ fn units_are_brought_into_shape() {
     };
     let total = |way: Way| {
         let done = close(&mut axes.clone(), &task, way).unwrap();
-        (done.energy.map(|e| e.total()), done.error)
+        (done.energy.map(|e| e.total(&Weights::PAPER)), done.error)
     };
     let ([start, shaped], error) = total(Way::Shape);
     let ([_, least], _) = total(Way::Least);
