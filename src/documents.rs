@@ -4,8 +4,8 @@ use crate::design::{Design, Part};
 use crate::drawing::pdf::{self, DocumentInfo, Page};
 use crate::drawing::{DrawingError, dxf, svg};
 use crate::frame::arrangement::arrangement;
-use crate::frame::share::Shared;
 use crate::pipeline::Model;
+use crate::sheets::{Document, TextError, document_title, notes};
 use crate::sheets::{
     Sheet, SheetError, SheetSettings, footprint, histogram_pairs, histograms, relaxing_pairs,
 };
@@ -58,16 +58,18 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
         add_support_map(design, model, &mut files)?;
     }
     if let (Some(plane), true) = (&model.footprint, design.wants(Part::Footprint)) {
-        let sheet = footprint::drawing(plane, &sheet_settings(design, model))?;
+        let sheet = footprint::drawing(plane, &sheet_settings(design, model)?)?;
         files.add("footprint.svg", svg::render(&sheet)?);
     }
     if design.wants(Part::Pictures) {
         for (name, picture) in pictures(frame) {
             files.add(format!("pictures/{name}.svg"), svg::render(&picture)?);
         }
-        let mut pairs = histogram_pairs(&model.measures);
-        pairs.extend(model.relaxing.iter().flat_map(relaxing_pairs));
-        let figures = histograms(&pairs)?;
+        let mut pairs = histogram_pairs(&model.measures, &design.texts)?;
+        if let Some(relaxing) = &model.relaxing {
+            pairs.extend(relaxing_pairs(relaxing, &design.texts)?);
+        }
+        let figures = histograms(&pairs, &design.texts)?;
         files.add("pictures/histograms.svg", svg::render(&figures)?);
     }
     Ok(files.0)
@@ -106,52 +108,57 @@ fn report(design: &Design, model: &Model) -> Report {
 
 fn add_sheets(design: &Design, model: &Model, files: &mut Files) -> Result<(), DocumentError> {
     let plane = model.footprint.as_ref();
-    let settings = sheet_settings(design, model);
+    let settings = sheet_settings(design, model)?;
     let sheets = sheets(&model.formed.frame, &model.measures, plane, &model.plan, &settings)?;
     for sheet in &sheets {
         files.add(format!("sheets/{}.svg", sheet.stem), svg::render(&sheet.page.drawing)?);
     }
-    files.add("sheets.pdf", bound(sheets, design, "building sheets")?);
+    files.add("sheets.pdf", bound(sheets, design, Document::Sheets)?);
     Ok(())
 }
 
 fn add_support_map(design: &Design, model: &Model, files: &mut Files) -> Result<(), DocumentError> {
-    let (frame, settings) = (&model.formed.frame, sheet_settings(design, model));
+    let (frame, settings) = (&model.formed.frame, sheet_settings(design, model)?);
     files.add("support-map.svg", svg::render(&support_map::drawing(frame, &settings)?)?);
     let (map, origin) = support_map::full_size(frame, &settings)?;
     files.add("support-map.dxf", dxf::render(&map, origin)?);
     let sheets = support_map::pages(frame, &settings)?;
-    files.add("support-map.pdf", bound(sheets, design, "support map")?);
+    files.add("support-map.pdf", bound(sheets, design, Document::SupportMap)?);
     Ok(())
 }
 
-fn sheet_settings(design: &Design, model: &Model) -> SheetSettings {
-    let pattern = format!("pattern {}: {}", design.tiles.name(), design.tiles.summary());
-    let edge = design.units.measure(model.fit.edge);
-    let unit = format!("rods turned by {:.1}°, tile edge {edge}", model.fit.turn.to_degrees());
-    let mut notes = vec![pattern, unit];
-    notes.extend(model.formed.shared.as_ref().map(|shared| {
-        let Shared { before, after, extra, .. } = *shared;
-        format!("{after} lengths in place of {before}, for {} more rod", design.units.total(extra))
-    }));
-    SheetSettings {
+fn sheet_settings(design: &Design, model: &Model) -> Result<SheetSettings, TextError> {
+    let mut settings = SheetSettings {
         model: design.name(),
         paper: design.paper,
         units: design.units,
         density: design.density,
-        notes,
-    }
+        notes: Vec::new(),
+        texts: design.texts.clone(),
+    };
+    let run = notes::Run {
+        pattern: &design.tiles.name(),
+        summary: design.tiles.summary(),
+        fit: &model.fit,
+        shared: model.formed.shared.as_ref(),
+    };
+    settings.notes = notes::notes(&run, settings.format(), &settings.texts)?;
+    Ok(settings)
 }
 
 /// Sheets as one PDF file.
-fn bound(sheets: Vec<Sheet>, design: &Design, what: &str) -> Result<Vec<u8>, DrawingError> {
+fn bound(
+    sheets: Vec<Sheet>,
+    design: &Design,
+    document: Document,
+) -> Result<Vec<u8>, DocumentError> {
     let pages: Vec<Page> = sheets.into_iter().map(|s| s.page).collect();
     let info = DocumentInfo {
-        title: format!("{}: {what}", design.name()),
+        title: document_title(document, &design.name(), &design.texts)?,
         creator: format!("rodwright {}", env!("CARGO_PKG_VERSION")),
         ..DocumentInfo::default()
     };
-    pdf::render(&pages, &info)
+    Ok(pdf::render(&pages, &info)?)
 }
 
 /// Why a file cannot be made.
@@ -160,6 +167,9 @@ pub enum DocumentError {
     /// The papers.
     #[error(transparent)]
     Sheets(#[from] SheetError),
+    /// A text.
+    #[error(transparent)]
+    Text(#[from] TextError),
     /// A drawing.
     #[error(transparent)]
     Drawing(#[from] DrawingError),

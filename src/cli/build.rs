@@ -93,6 +93,7 @@ fn design(args: &Args) -> Result<Design, Failure> {
         surface: folder.filter(|_| args.settings.surface.is_none()),
         pattern: folder.filter(|_| args.settings.pattern.is_none()),
         as_built: folder.filter(|_| args.settings.as_built.is_none()),
+        templates: folder.filter(|_| args.settings.templates.is_none()),
     };
     args.settings.clone().or(from_file).resolve(folders).map_err(design_failure)
 }

@@ -61,8 +61,8 @@ fn exhibit(file: &Path, quiet: bool, terminal: &Terminal) -> Result<Exhibit, Fai
 fn read(file: &Path) -> Result<Design, Failure> {
     // These errors name the file themselves.
     let settings = Settings::read(file).map_err(design_failure)?;
-    let folders =
-        Folders { surface: file.parent(), pattern: file.parent(), as_built: file.parent() };
+    let folder = file.parent();
+    let folders = Folders { surface: folder, pattern: folder, as_built: folder, templates: folder };
     settings.resolve(folders).map_err(|e| {
         let message = format!("{}: {e}", file.display());
         if e.is_io() { Failure::File(message) } else { Failure::Input(message) }

@@ -22,6 +22,10 @@ impl Design {
         self.stock_settings(&mut file, found_stock);
         file.set("paper", self.paper.to_string());
         file.set("units", choice(self.units));
+        file.set("language", choice(self.language));
+        if let Some(folder) = &self.given.templates {
+            file.set("templates", folder.to_string_lossy().into_owned());
+        }
         if let Some(measured) = &self.measured {
             file.set("as_built", measured.given.to_string_lossy().into_owned());
         }

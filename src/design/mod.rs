@@ -27,7 +27,7 @@ use crate::frame::share::Share;
 use crate::frame::sizes::SizeTable;
 use crate::frame::tolerance::Tolerance;
 use crate::pattern::{Pattern, PatternError, ShapeError};
-use crate::sheets::{Paper, PaperUnits};
+use crate::sheets::{Language, Paper, PaperUnits, TextError, Texts};
 use crate::shop::Stock;
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
@@ -171,6 +171,10 @@ pub struct Design {
     pub paper: Paper,
     /// Unit on paper.
     pub units: PaperUnits,
+    /// Language on paper.
+    pub language: Language,
+    /// What is said on paper.
+    pub texts: Texts,
     /// What was measured on sticks, if the frame is to be solved again with it.
     pub measured: Option<MeasuredTable>,
     /// How exact marks and sticks are, if it is to be tried what that does.
@@ -194,6 +198,9 @@ pub enum DesignError {
     /// The table of measurements is not valid.
     #[error("{file}: line {line}: {problem}")]
     Measured { file: PathBuf, line: u64, problem: String },
+    /// The texts of the papers.
+    #[error(transparent)]
+    Texts(#[from] TextError),
     /// The pattern file cannot be read, or is not valid.
     #[error("{}", source.in_file(file))]
     Pattern { file: PathBuf, source: Box<PatternError> },
@@ -219,6 +226,7 @@ impl DesignError {
         match self {
             Self::Unreadable { .. } => true,
             Self::Pattern { source, .. } => source.is_io(),
+            Self::Texts(e) => e.is_io(),
             _ => false,
         }
     }

@@ -5,6 +5,7 @@ use crate::frame::close::Way;
 use crate::frame::share::Share;
 use crate::frame::tolerance::Tolerance;
 use crate::pattern::{Pattern, Shape, library};
+use crate::sheets::Texts;
 use crate::shop::{Offer, Stock};
 use crate::tiling::conway::Notation;
 use crate::units::{Angle, Length};
@@ -20,6 +21,8 @@ pub struct Folders<'a> {
     pub pattern: Option<&'a Path>,
     /// For the table of measurements.
     pub as_built: Option<&'a Path>,
+    /// For the folder of texts.
+    pub templates: Option<&'a Path>,
 }
 
 /// A file in a folder if there is one of this name, or else where we are.
@@ -42,6 +45,7 @@ impl Settings {
         let rod = positive("rod", given.diameter)?.unwrap_or(DEFAULT_ROD);
         let tiles = self.tiles(&surface.to_string_lossy(), folders.pattern)?;
         self.check_fit_for(&tiles)?;
+        let language = self.language.unwrap_or_default();
         Ok(Design {
             surface_file: beside(folders.surface, &surface),
             surface,
@@ -71,6 +75,11 @@ impl Settings {
             round: not_negative("round", self.round)?.unwrap_or(DEFAULT_ROUND),
             paper: self.paper.unwrap_or_default(),
             units: self.units.unwrap_or_default(),
+            language,
+            texts: match &self.templates {
+                None => Texts::built_in(language)?,
+                Some(own) => Texts::with_folder(language, &beside(folders.templates, own))?,
+            },
             measured: self.measured(folders.as_built)?,
             tolerance: self.tolerance()?,
             seed: self.seed.unwrap_or(DEFAULT_SEED),

@@ -6,7 +6,7 @@ use crate::chart::Method;
 use crate::frame::close::Way;
 use crate::frame::layer::Layering;
 use crate::frame::relax::Relax;
-use crate::sheets::{Paper, PaperUnits};
+use crate::sheets::{Language, Paper, PaperUnits};
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
 use crate::surface::up::Up;
@@ -151,6 +151,15 @@ pub struct Settings {
     #[arg(long, value_enum)]
     pub units: Option<PaperUnits>,
 
+    /// Language of the papers [default: en]
+    #[arg(long, value_enum)]
+    pub language: Option<Language>,
+
+    /// Folder with texts of your own for the papers: its files take the place of those that
+    /// `rodwright templates` writes, text by text
+    #[arg(long, value_name = "FOLDER")]
+    pub templates: Option<PathBuf>,
+
     /// Solve the frame again with what was measured on the sticks: a CSV file with the columns
     /// rod, mate or contact, mark, diameter (README, "Sticks as they are"). Rods in it are sawn:
     /// they keep their length, and contacts come to lie at their marks
@@ -224,6 +233,8 @@ impl Settings {
             class_tolerance: self.class_tolerance.or(other.class_tolerance.filter(|_| !shares)),
             paper: self.paper.or(other.paper),
             units: self.units.or(other.units),
+            language: self.language.or(other.language),
+            templates: self.templates.or(other.templates),
             as_built: self.as_built.or(other.as_built),
             tolerance: self.tolerance.or(other.tolerance),
             seed: self.seed.or(other.seed),

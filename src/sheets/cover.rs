@@ -1,15 +1,50 @@
 //! The cover: what the model looks like, what to buy, how to read the rest.
 
-use super::format::{counted, fixed};
 use super::legend::{CALIBRATION, RULER_WIDTH, calibration_box, ruler, ruler_down, sign};
 use super::page::{BODY, Flow, HEADING, Leaf, SMALL};
+use super::text::message::messages;
 use super::view::View;
-use super::{PaperUnits, SheetError, SheetSettings};
+use super::{SheetError, SheetSettings};
 use crate::drawing::font::{LEADING, fit_size, wrap};
 use crate::drawing::{Draw, Point, Rect, Weight};
 use crate::frame::{Chirality, ContactKind, Frame};
 use crate::shop::lengths::{are_mixed, diameters};
 use crate::shop::{CutPlan, Side, classes};
+
+messages! {
+    mod say in "cover.toml" {
+        "title" => Title {}
+        "isometric-view" => Isometric { scale: String }
+        "plan-view" => Plan { scale: String }
+        "model" => Model {}
+        "size" => Size { width: String, depth: String, height: String, unit: String }
+        "parts" => Parts { rods: usize, contacts: usize, feet: usize }
+        "diameters" => Diameters { list: String }
+        "diameter" => Diameter { count: usize, diameter: String }
+        "units" => Units { units: usize, clockwise: usize, counter_clockwise: usize }
+        "to-buy" => ToBuy {}
+        "bars" => Bars { count: usize, length: String, diameter: String, price: String }
+        "offcuts" => Offcuts { count: usize, length: String, diameter: String }
+        "cost" => Cost { cost: String }
+        "all-sawn" => AllSawn {}
+        "rod-in-all" => RodInAll { total: String }
+        "lengths" => Lengths {}
+        "class" => Class { name: String, count: usize, length: String, diameter: String }
+        "more-classes" => MoreClasses { count: usize }
+        "notes" => Notes {}
+        "guide" => Guide {}
+        "guide-lay" => GuideLay {}
+        "guide-over" => GuideOver {}
+        "guide-under" => GuideUnder {}
+        "guide-end" => GuideEnd {}
+        "guide-lines" => GuideLines {}
+        "guide-example" => GuideExample {}
+        "guide-explained" => GuideExplained {}
+        "guide-clock" => GuideClock {}
+        "guide-ends" => GuideEnds {}
+        "check" => Check {}
+    }
+}
 
 /// Least height of the two views, mm.
 const LEAST_VIEW: f64 = 55.0;
@@ -30,15 +65,17 @@ pub(super) fn cover(
     plan: &CutPlan,
     settings: &SheetSettings,
 ) -> Result<Vec<Leaf>, SheetError> {
-    let mut flow = Flow::new(settings, "cover", "Cover");
+    let mut flow = Flow::new(settings, "cover", &settings.say(say::Title {})?);
     let area = flow.area();
     let width = area.width() - RULER_COLUMN;
     let two = width >= TWO_COLUMNS;
     let column = if two { (width - GAP) / 2.0 } else { width };
-    let blocks =
-        Blocks { facts: facts(frame, plan, settings, column)?, guide: guide(frame, column)? };
+    let blocks = Blocks {
+        facts: facts(frame, plan, settings, column)?,
+        guide: guide(frame, settings, column)?,
+    };
     let below = blocks.height(two) + GAP + CALIBRATION[1] + 2.0 * GAP + RULER_WIDTH;
-    views(&mut flow, frame, width, below);
+    views(&mut flow, frame, width, below, settings)?;
     let left = area.min[0];
     if two {
         flow.need(blocks.height(true));
@@ -59,20 +96,31 @@ pub(super) fn cover(
 }
 
 /// Isometric view and plan side by side, in what room the rest leaves.
-fn views(flow: &mut Flow, frame: &Frame, width: f64, below: f64) {
+fn views(
+    flow: &mut Flow,
+    frame: &Frame,
+    width: f64,
+    below: f64,
+    settings: &SheetSettings,
+) -> Result<(), SheetError> {
+    let format = settings.format();
     let area = flow.area();
     let height = (flow.room() - below - CAPTION).max(LEAST_VIEW);
     let each = (width - GAP) / 2.0;
     let y = flow.y;
     let page = flow.page();
-    for (i, (name, view)) in
-        [("Isometric view", View::isometric()), ("Plan view", View::plan())].into_iter().enumerate()
-    {
+    for (i, view) in [View::isometric(), View::plan()].into_iter().enumerate() {
         let x = area.min[0] + (each + GAP) * i as f64;
         let n = view.draw(frame, Rect::new([x, y], [each, height]), page);
-        page.text([x + each / 2.0, y + height + 4.0], BODY, format!("{name}, 1:{n}")).middle();
+        let scale = format.plain(n);
+        let caption = match i {
+            0 => settings.say(say::Isometric { scale })?,
+            _ => settings.say(say::Plan { scale })?,
+        };
+        page.text([x + each / 2.0, y + height + 4.0], BODY, caption).middle();
     }
     flow.skip(height + CAPTION + 2.0);
+    Ok(())
 }
 
 /// Lines of text, some of them headings, with signs beside them.
@@ -181,68 +229,12 @@ fn facts(
     settings: &SheetSettings,
     width: f64,
 ) -> Result<Block, SheetError> {
-    let units = settings.units;
     let mut block = Block::new();
-    block.heading("The model");
-    let [w, d, h] = size(frame).map(|side| units.length(side));
-    block.text(&format!("{w} × {d} × {h} {} (wide × deep × high)", units.name()), width)?;
-    let rods = counted(frame.rods.len(), "rod");
-    let contacts = counted(frame.contacts.len(), "contact");
-    let feet = match frame.supports.len() {
-        1 => "1 foot".to_owned(),
-        n => format!("{n} feet"),
-    };
-    block.text(&format!("{rods}, {contacts}, {feet}"), width)?;
-    if are_mixed(frame) {
-        block.text(&counts(frame, units), width)?;
-    }
-    let turning = |c: Chirality| frame.units.iter().filter(|u| u.chirality == c).count();
-    let (cw, ccw) = (turning(Chirality::Clockwise), turning(Chirality::CounterClockwise));
-    let runs = match (cw, ccw) {
-        (0, _) => "all run counter-clockwise, seen from outside".to_owned(),
-        (_, 0) => "all run clockwise, seen from outside".to_owned(),
-        _ => format!("{cw} run clockwise and {ccw} counter-clockwise, seen from outside"),
-    };
-    block.text(&format!("{}; {runs}", counted(frame.units.len(), "unit")), width)?;
-
-    block.heading("To buy");
-    for bars in plan.shopping() {
-        let (length, diameter) = (units.measure(bars.length), units.diameter(bars.diameters));
-        let each = bars.price.map_or_else(String::new, |p| format!(", {} each", fixed(p, 2)));
-        let line = format!("{} × {length}, Ø {diameter}, round{each}", bars.count);
-        block.text(&line, width)?;
-    }
-    for bars in plan.taken() {
-        let (length, diameter) = (units.measure(bars.length), units.diameter(bars.diameters));
-        let noun = if bars.count == 1 { "offcut" } else { "offcuts" };
-        block.text(&format!("and {} {noun} of {length}, Ø {diameter}", bars.count), width)?;
-    }
-    if let Some(cost) = plan.cost() {
-        block.text(&format!("cost {}", fixed(cost, 2)), width)?;
-    }
-    block.text(
-        &match plan.bars.is_empty() {
-            true => "nothing: all rods are sawn".into(),
-            false => format!("{} of rod in all", units.total(plan.used())),
-        },
-        width,
-    )?;
-
-    let classes = classes(frame);
-    block.heading("Lengths");
-    for class in classes.iter().take(LISTED_CLASSES) {
-        let length = units.measure(class.length);
-        let mut line = format!("class {}: {} × {length}", class.name, class.rods.len());
-        if are_mixed(frame) {
-            line = format!("{line}, Ø {}", units.diameter(class.diameters));
-        }
-        block.text(&line, width)?;
-    }
-    if let more @ 1.. = classes.len().saturating_sub(LISTED_CLASSES) {
-        block.text(&format!("and {more} more: see the cut list"), width)?;
-    }
+    model(frame, settings, width, &mut block)?;
+    shopping(plan, settings, width, &mut block)?;
+    lengths(frame, settings, width, &mut block)?;
     if !settings.notes.is_empty() {
-        block.heading("Notes");
+        block.heading(&settings.say(say::Notes {})?);
         for note in &settings.notes {
             block.text(note, width)?;
         }
@@ -250,11 +242,91 @@ fn facts(
     Ok(block)
 }
 
-/// How many rods there are of each diameter.
-fn counts(frame: &Frame, units: PaperUnits) -> String {
-    let count = |(ends, n): ([f64; 2], usize)| format!("{n} of {}", units.diameter(ends));
-    let counts: Vec<String> = diameters(frame).into_iter().map(count).collect();
-    format!("{} diameter", counts.join(", "))
+/// Size and numbers.
+fn model(
+    frame: &Frame,
+    settings: &SheetSettings,
+    room: f64,
+    block: &mut Block,
+) -> Result<(), SheetError> {
+    let format = settings.format();
+    block.heading(&settings.say(say::Model {})?);
+    let [width, depth, height] = size(frame).map(|side| format.length(side));
+    let unit = settings.units.name().to_owned();
+    block.text(&settings.say(say::Size { width, depth, height, unit })?, room)?;
+    let [rods, contacts] = [frame.rods.len(), frame.contacts.len()];
+    let feet = frame.supports.len();
+    block.text(&settings.say(say::Parts { rods, contacts, feet })?, room)?;
+    if are_mixed(frame) {
+        let count = |(ends, count): ([f64; 2], usize)| {
+            settings.say(say::Diameter { count, diameter: format.diameter(ends) })
+        };
+        let list: Vec<String> =
+            diameters(frame).into_iter().map(count).collect::<Result<_, _>>()?;
+        block.text(&settings.say(say::Diameters { list: list.join(", ") })?, room)?;
+    }
+    let turning = |c: Chirality| frame.units.iter().filter(|u| u.chirality == c).count();
+    let (clockwise, counter_clockwise) =
+        (turning(Chirality::Clockwise), turning(Chirality::CounterClockwise));
+    let units = frame.units.len();
+    block.text(&settings.say(say::Units { units, clockwise, counter_clockwise })?, room)
+}
+
+/// What to buy and what to take.
+fn shopping(
+    plan: &CutPlan,
+    settings: &SheetSettings,
+    width: f64,
+    block: &mut Block,
+) -> Result<(), SheetError> {
+    let format = settings.format();
+    block.heading(&settings.say(say::ToBuy {})?);
+    for bars in plan.shopping() {
+        let line = say::Bars {
+            count: bars.count,
+            length: format.measure(bars.length),
+            diameter: format.diameter(bars.diameters),
+            price: bars.price.map_or_else(String::new, |p| format.fixed(p, 2)),
+        };
+        block.text(&settings.say(line)?, width)?;
+    }
+    for bars in plan.taken() {
+        let (length, diameter) = (format.measure(bars.length), format.diameter(bars.diameters));
+        let line = say::Offcuts { count: bars.count, length, diameter };
+        block.text(&settings.say(line)?, width)?;
+    }
+    if let Some(cost) = plan.cost() {
+        block.text(&settings.say(say::Cost { cost: format.fixed(cost, 2) })?, width)?;
+    }
+    let total = match plan.bars.is_empty() {
+        true => settings.say(say::AllSawn {})?,
+        false => settings.say(say::RodInAll { total: format.total(plan.used()) })?,
+    };
+    block.text(&total, width)
+}
+
+/// The length classes, if they are few.
+fn lengths(
+    frame: &Frame,
+    settings: &SheetSettings,
+    width: f64,
+    block: &mut Block,
+) -> Result<(), SheetError> {
+    let (format, classes, mixed) = (settings.format(), classes(frame), are_mixed(frame));
+    block.heading(&settings.say(say::Lengths {})?);
+    for class in classes.iter().take(LISTED_CLASSES) {
+        let line = say::Class {
+            name: class.name.clone(),
+            count: class.rods.len(),
+            length: format.measure(class.length),
+            diameter: if mixed { format.diameter(class.diameters) } else { String::new() },
+        };
+        block.text(&settings.say(line)?, width)?;
+    }
+    if let count @ 1.. = classes.len().saturating_sub(LISTED_CLASSES) {
+        block.text(&settings.say(say::MoreClasses { count })?, width)?;
+    }
+    Ok(())
 }
 
 /// Width, depth and height over the rods' surfaces, from the ground up, mm.
@@ -267,45 +339,25 @@ fn size(frame: &Frame) -> [f64; 3] {
     [hi.x - lo.x + w, hi.y - lo.y + w, hi.z + w / 2.0 - frame.ground.min(lo.z)]
 }
 
-fn guide(frame: &Frame, width: f64) -> Result<Block, SheetError> {
+fn guide(frame: &Frame, settings: &SheetSettings, width: f64) -> Result<Block, SheetError> {
     let mut block = Block::new();
-    block.heading("How to read a rod card");
-    block.text("Lay the rod with its numbered end, end A, at the black triangle.", width)?;
+    block.heading(&settings.say(say::Guide {})?);
+    block.text(&settings.say(say::GuideLay {})?, width)?;
     let indent = 9.5;
-    block.signed(
-        "O, whole line: this rod lies over its partner, on the outer side.",
-        width,
-        indent,
-        Some(Side::Over),
-    )?;
-    block.signed(
-        "U, broken line: this rod lies under its partner.",
-        width,
-        indent,
-        Some(Side::Under),
-    )?;
+    block.signed(&settings.say(say::GuideOver {})?, width, indent, Some(Side::Over))?;
+    block.signed(&settings.say(say::GuideUnder {})?, width, indent, Some(Side::Under))?;
     let end = frame.contacts.iter().find_map(|c| match c.kind {
         ContactKind::End([end, _]) => Some(end),
         ContactKind::Cross => None,
     });
     if let Some(end) = end {
-        let text =
-            "E: this rod's end meets an end of its partner; join them with a sleeve or tape.";
-        block.signed(text, width, indent, Some(Side::Meets(end)))?;
+        block.signed(&settings.say(say::GuideEnd {})?, width, indent, Some(Side::Meets(end)))?;
     }
-    block.text("Below the rod, a line for every mark:", width)?;
-    block.verbatim("b   112.4   U   R009 c @ 118.3   41.2°   clock 187.0°   ends", width)?;
-    block.text(
-        "Mark b, 112.4 from end A; this rod lies under rod R009, at mark c of that rod, 118.3 \
-         from its own end A; they cross at 41.2°.",
-        width,
-    )?;
-    block.text(
-        "clock: look along the rod from end A; this far clockwise from the first mark sits \
-         the partner.",
-        width,
-    )?;
-    block.text("ends: the rod ends there; passes: it goes on.", width)?;
+    block.text(&settings.say(say::GuideLines {})?, width)?;
+    block.verbatim(&settings.say(say::GuideExample {})?, width)?;
+    block.text(&settings.say(say::GuideExplained {})?, width)?;
+    block.text(&settings.say(say::GuideClock {})?, width)?;
+    block.text(&settings.say(say::GuideEnds {})?, width)?;
     Ok(block)
 }
 
@@ -318,9 +370,8 @@ fn checks(flow: &mut Flow, width: f64, settings: &SheetSettings) -> Result<(), S
     // At the foot of the page: there the box is easy to find.
     let y = area.max[1] - CALIBRATION[1] - GAP - RULER_WIDTH;
     let page = flow.page();
-    calibration_box(page, [left, y]);
-    let text = "Is the print true to size? Print at 100 %, not fitted to the page, then measure \
-                the box and the rulers. If they are off, all strips and maps are off.";
+    calibration_box(page, [left, y], settings)?;
+    let text = settings.say(say::Check {})?;
     let room = width - CALIBRATION[0] - GAP;
     let inside = room < 40.0;
     let (x, room, size) = if inside {
@@ -328,7 +379,7 @@ fn checks(flow: &mut Flow, width: f64, settings: &SheetSettings) -> Result<(), S
     } else {
         (left + CALIBRATION[0] + GAP, room, BODY)
     };
-    let lines = wrap(text, size, Weight::Regular, room)?;
+    let lines = wrap(&text, size, Weight::Regular, room)?;
     let top = y + if inside { 8.0 } else { size };
     page.text_lines([x, top], size, size * LEADING, Default::default(), lines);
     ruler(page, [left, area.max[1] - RULER_WIDTH], area.width() - RULER_COLUMN, units);

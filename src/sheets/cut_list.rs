@@ -1,14 +1,46 @@
 //! The cut list: length classes, and which pieces are sawn from which bar.
 
-use super::PaperUnits;
-use super::format::{counted, fixed, percent};
 use super::page::{BODY, Column, Flow, Leaf, SMALL, TABLE, THIN, Table};
-use super::{SheetError, SheetSettings};
+use super::text::TextError;
+use super::text::message::messages;
+use super::{Format, SheetError, SheetSettings};
 use crate::drawing::font::text_width;
-use crate::drawing::{Color, Draw, DrawingError, Stroke, Weight};
+use crate::drawing::{Color, Draw, Stroke, Weight};
 use crate::frame::Frame;
 use crate::ids::RodId;
 use crate::shop::{Aim, Bar, BarGroup, CutPlan, LengthClasses, Purchase, classes};
+
+messages! {
+    mod say in "cut-list.toml" {
+        "title" => Title {}
+        "by-length" => ByLength {}
+        "plan" => Plan {}
+        "class" => Class {}
+        "length" => Length {}
+        "count" => Count {}
+        "total" => Total {}
+        "diameter" => Diameter {}
+        "rods" => Rods {}
+        "nothing" => Nothing {}
+        "summary" => Summary {
+            pieces: usize, bars: usize, list: String, cuts: usize, kerf: String, trim: String,
+            total: String, weight: String, density: String, waste: String,
+        }
+        "kept" => Kept { list: String }
+        "stops" => Stops {}
+        "bought" => Bought { bars: String, offcuts: String }
+        "bars" => Bars { count: usize, length: String, diameter: String }
+        "worth-bars" => WorthBars { spent: usize, least: usize, proven: bool }
+        "worth-length" => WorthLength { spent: String, least: String, proven: bool }
+        "worth-cost" => WorthCost { spent: String, least: String, proven: bool }
+        "piece" => Piece {}
+        "stop-at" => StopAt {}
+        "bar" => BarNumber { number: usize }
+        "bar-numbers" => BarNumbers { first: usize, last: usize }
+        "bar-head" => BarHead { count: usize, length: String, diameter: String, offcut: bool }
+        "left-over" => LeftOver { length: String, keep: bool }
+    }
+}
 
 /// Height of the picture of a bar, mm.
 const BAR: f64 = 4.0;
@@ -23,13 +55,13 @@ pub(super) fn cut_list(
     plan: &CutPlan,
     settings: &SheetSettings,
 ) -> Result<Vec<Leaf>, SheetError> {
-    let mut flow = Flow::new(settings, "cut-list", "Cut list and sawing plan");
+    let mut flow = Flow::new(settings, "cut-list", &settings.say(say::Title {})?);
     let classes = classes(frame);
-    flow.heading("Rods by length", 20.0);
-    flow.table(&class_table(&classes, plan.is_mixed(), settings))?;
-    flow.heading("Sawing plan", 40.0);
-    let saw = Saw { plan, classes: &classes, units: flow.units() };
-    saw.summary(&mut flow, settings.density)?;
+    flow.heading(&settings.say(say::ByLength {})?, 20.0);
+    flow.table(&class_table(&classes, plan.is_mixed(), settings)?)?;
+    flow.heading(&settings.say(say::Plan {})?, 40.0);
+    let saw = Saw { plan, classes: &classes, format: flow.format(), settings };
+    saw.summary(&mut flow)?;
     let mut first = 1;
     for bars in plan.groups() {
         let alike = Alike { first, bars };
@@ -43,7 +75,8 @@ pub(super) fn cut_list(
 struct Saw<'a> {
     plan: &'a CutPlan,
     classes: &'a LengthClasses,
-    units: PaperUnits,
+    format: Format,
+    settings: &'a SheetSettings,
 }
 
 /// Bars that are sawn alike, and the number of the first of them.
@@ -53,116 +86,109 @@ struct Alike<'a> {
 }
 
 /// The length classes, with their diameters where rods have several.
-fn class_table(classes: &LengthClasses, mixed: bool, settings: &SheetSettings) -> Table {
-    let units = settings.units;
+fn class_table(
+    classes: &LengthClasses,
+    mixed: bool,
+    settings: &SheetSettings,
+) -> Result<Table, TextError> {
+    let format = settings.format();
     let names = |rods: &[RodId]| rods.iter().map(RodId::to_string).collect::<Vec<_>>().join(" ");
     let rows = classes
         .iter()
         .map(|c| {
             let count = c.rods.len();
-            let total = units.total(c.length * count as f64);
-            let mut row = vec![c.name.clone(), units.length(c.length), count.to_string(), total];
-            row.extend(mixed.then(|| units.diameter(c.diameters)));
+            let total = format.total(c.length * count as f64);
+            let mut row = vec![c.name.clone(), format.length(c.length), count.to_string(), total];
+            row.extend(mixed.then(|| format.diameter(c.diameters)));
             row.push(names(&c.rods));
             row
         })
         .collect();
     let mut columns = vec![
-        Column::text("class"),
-        Column::figure("length"),
-        Column::figure("count"),
-        Column::figure("total"),
+        Column::text(settings.say(say::Class {})?),
+        Column::figure(settings.say(say::Length {})?),
+        Column::figure(settings.say(say::Count {})?),
+        Column::figure(settings.say(say::Total {})?),
     ];
-    columns.extend(mixed.then(|| Column::figure("Ø")));
-    columns.push(Column::wrapped("rods"));
-    Table { columns, rows }
+    if mixed {
+        columns.push(Column::figure(settings.say(say::Diameter {})?));
+    }
+    columns.push(Column::wrapped(settings.say(say::Rods {})?));
+    Ok(Table { columns, rows })
 }
 
 impl Saw<'_> {
     /// What is bought and sawn, how good the plan is, and how to read it.
-    fn summary(&self, flow: &mut Flow, density: f64) -> Result<(), DrawingError> {
-        let Self { plan, units, .. } = *self;
+    fn summary(&self, flow: &mut Flow) -> Result<(), SheetError> {
+        let Self { plan, format, settings, .. } = *self;
         if plan.bars.is_empty() {
-            return flow.paragraph("Nothing: all rods are sawn.");
+            return Ok(flow.paragraph(&settings.say(say::Nothing {})?)?);
         }
-        let trim = if plan.trim > 0.0 {
-            format!("; {} trimmed off both ends of every bar", units.measure(plan.trim))
-        } else {
-            String::new()
-        };
-        flow.paragraph(&format!(
-            "{} from {} ({}). {}, each {} wide{trim}. {} of rod, {} kg at {density} kg/m³; waste {}.",
-            counted(plan.pieces(), "piece"),
-            counted(plan.bars.len(), "bar"),
-            self.bars(),
-            counted(plan.cuts(), "saw cut"),
-            units.measure(plan.kerf),
-            units.total(plan.used()),
-            weight(plan.weight(density)),
-            percent(plan.waste()),
-        ))?;
-        flow.paragraph(&self.worth())?;
+        let trim = plan.trim > 0.0;
+        flow.paragraph(&settings.say(say::Summary {
+            pieces: plan.pieces(),
+            bars: plan.bars.len(),
+            list: self.bars()?,
+            cuts: plan.cuts(),
+            kerf: format.measure(plan.kerf),
+            trim: if trim { format.measure(plan.trim) } else { String::new() },
+            total: format.total(plan.used()),
+            weight: weight(plan.weight(settings.density), format),
+            density: format.plain(settings.density),
+            waste: format.percent(plan.waste()),
+        })?)?;
+        flow.paragraph(&self.worth()?)?;
         let kept = plan.kept();
         if !kept.is_empty() {
-            flow.paragraph(&format!("Left-overs to keep: {}.", self.list(&kept)))?;
+            let list = self.list(&kept)?;
+            flow.paragraph(&settings.say(say::Kept { list })?)?;
         }
-        flow.paragraph(
-            "Stops are measured from the bar's end to the end of the piece; the saw cuts just \
-             beyond. Write its number on end A of each rod as it comes off.",
-        )
+        Ok(flow.paragraph(&settings.say(say::Stops {})?)?)
     }
 
     /// The bars that are bought, and the offcuts that are used.
-    fn bars(&self) -> String {
-        let taken = self.plan.taken();
-        let bought = self.list(&self.plan.shopping());
-        match (bought.is_empty(), taken.is_empty()) {
-            (_, true) => bought,
-            (true, false) => format!("offcuts {}", self.list(&taken)),
-            (false, false) => format!("{bought}, and offcuts {}", self.list(&taken)),
-        }
+    fn bars(&self) -> Result<String, TextError> {
+        let bars = self.list(&self.plan.shopping())?;
+        let offcuts = self.list(&self.plan.taken())?;
+        self.settings.say(say::Bought { bars, offcuts })
     }
 
-    fn list(&self, bars: &[Purchase]) -> String {
+    fn list(&self, bars: &[Purchase]) -> Result<String, TextError> {
         let one = |p: &Purchase| {
-            let of = if self.plan.is_mixed() {
-                format!(" of Ø {}", self.units.diameter(p.diameters))
-            } else {
-                String::new()
+            let diameter = match self.plan.is_mixed() {
+                true => self.format.diameter(p.diameters),
+                false => String::new(),
             };
-            format!("{} × {}{of}", p.count, self.units.measure(p.length))
+            let length = self.format.measure(p.length);
+            self.settings.say(say::Bars { count: p.count, length, diameter })
         };
-        bars.iter().map(one).collect::<Vec<_>>().join(", ")
+        Ok(bars.iter().map(one).collect::<Result<Vec<_>, _>>()?.join(", "))
     }
 
     /// How good the plan is.
-    fn worth(&self) -> String {
-        let Self { plan, units, .. } = *self;
-        let bars = |n: f64| counted(n as usize, "bar");
-        let (spent, least) = match plan.aim {
+    fn worth(&self) -> Result<String, TextError> {
+        let Self { plan, format, settings, .. } = *self;
+        let proven = plan.is_proven();
+        let both = [plan.spent, plan.least];
+        match plan.aim {
             Aim::Bars => {
-                let spent = bars(plan.spent);
-                (format!("{spent} to buy"), format!("needs fewer than {}", bars(plan.least)))
+                let [spent, least] = both.map(|n| n as usize);
+                settings.say(say::WorthBars { spent, least, proven })
             }
             Aim::Length => {
-                let [spent, least] = [plan.spent, plan.least].map(|mm| units.total(mm));
-                (format!("{spent} of bars to buy"), format!("needs less than {least}"))
+                let [spent, least] = both.map(|mm| format.total(mm));
+                settings.say(say::WorthLength { spent, least, proven })
             }
             Aim::Cost => {
-                let [spent, least] = [plan.spent, plan.least].map(|cost| fixed(cost, 2));
-                (format!("Cost {spent}"), format!("costs less than {least}"))
+                let [spent, least] = both.map(|cost| format.fixed(cost, 2));
+                settings.say(say::WorthCost { spent, least, proven })
             }
-        };
-        if plan.is_proven() {
-            format!("{spent}; no plan {least}: this is the best possible.")
-        } else {
-            format!("{spent}; no plan {least}, and whether one between is possible is not known.")
         }
     }
 
     /// Bars that are sawn alike: a picture, the stops, and the rods of each bar.
-    fn alike(&self, flow: &mut Flow, alike: &Alike) -> Result<(), DrawingError> {
-        let (bar, units) = (alike.bars.first(), self.units);
+    fn alike(&self, flow: &mut Flow, alike: &Alike) -> Result<(), SheetError> {
+        let (bar, format, settings) = (alike.bars.first(), self.format, self.settings);
         let mut rows = Vec::new();
         let mut row =
             |name: String, weight: Weight, text: &dyn Fn(&Bar, usize) -> String, of: &Bar| {
@@ -171,12 +197,13 @@ impl Saw<'_> {
             };
         let piece = |b: &Bar, i: usize| {
             let name = &self.classes.of(b.pieces[i].rod).name;
-            format!("{name} {}", units.length(b.pieces[i].length))
+            format!("{name} {}", format.length(b.pieces[i].length))
         };
-        row("piece".to_owned(), Weight::Regular, &piece, bar);
-        row("stop at".to_owned(), Weight::Bold, &|b, i| units.length(b.pieces[i].stop), bar);
+        row(settings.say(say::Piece {})?, Weight::Regular, &piece, bar);
+        let stop = |b: &Bar, i: usize| format.length(b.pieces[i].stop);
+        row(settings.say(say::StopAt {})?, Weight::Bold, &stop, bar);
         for (n, bar) in alike.bars.bars.iter().enumerate() {
-            let name = format!("bar {}", alike.first + n);
+            let name = settings.say(say::BarNumber { number: alike.first + n })?;
             row(name, Weight::Regular, &|b, i| b.pieces[i].rod.to_string(), bar);
         }
         // The picture stays with the first stops and rods.
@@ -186,7 +213,7 @@ impl Saw<'_> {
     }
 
     /// How many bars, and a bar to scale with the classes of its pieces.
-    fn picture(&self, flow: &mut Flow, alike: &Alike) -> Result<(), DrawingError> {
+    fn picture(&self, flow: &mut Flow, alike: &Alike) -> Result<(), SheetError> {
         self.caption(flow, alike)?;
         let bar = alike.bars.first();
         let area = flow.area();
@@ -215,27 +242,26 @@ impl Saw<'_> {
     }
 
     /// The line above the picture.
-    fn caption(&self, flow: &mut Flow, alike: &Alike) -> Result<(), DrawingError> {
-        let (bar, units, first) = (alike.bars.first(), self.units, alike.first);
+    fn caption(&self, flow: &mut Flow, alike: &Alike) -> Result<(), SheetError> {
+        let (bar, first) = (alike.bars.first(), alike.first);
+        let (format, settings) = (self.format, self.settings);
         let (area, y) = (flow.area(), flow.y);
         let count = alike.bars.bars.len();
         let numbers = match count {
-            1 => format!("bar {first}"),
-            _ => format!("bars {first} to {}", first + count - 1),
+            1 => settings.say(say::BarNumber { number: first })?,
+            _ => settings.say(say::BarNumbers { first, last: first + count - 1 })?,
         };
-        let left = match (bar.left > 0.0, self.plan.keeps(bar)) {
-            (true, true) => format!("keep the {} left over", units.measure(bar.left)),
-            (true, false) => format!("left over {}", units.measure(bar.left)),
-            (false, _) => "nothing left over".to_owned(),
+        let left = settings.say(say::LeftOver {
+            length: if bar.left > 0.0 { format.measure(bar.left) } else { String::new() },
+            keep: self.plan.keeps(bar),
+        })?;
+        let diameter = match self.plan.is_mixed() {
+            true => format.diameter(bar.diameters),
+            false => String::new(),
         };
+        let length = format.measure(bar.stock_length);
+        let head = settings.say(say::BarHead { count, length, diameter, offcut: bar.at_hand })?;
         let page = flow.page();
-        let mut head = format!("{count} × {}", units.measure(bar.stock_length));
-        if self.plan.is_mixed() {
-            head = format!("{head}, Ø {}", units.diameter(bar.diameters));
-        }
-        if bar.at_hand {
-            head = format!("{head}, offcut{}", if count == 1 { "" } else { "s" });
-        }
         let beside = (text_width(&head, BODY + 0.4, Weight::Bold)? + 4.0).max(42.0);
         page.text([area.min[0], y + BODY + 0.5], BODY + 0.4, head).bold();
         page.text([area.min[0] + beside, y + BODY + 0.5], BODY, numbers);
@@ -245,13 +271,13 @@ impl Saw<'_> {
 }
 
 /// A weight in kg to three figures or so.
-fn weight(kg: f64) -> String {
+fn weight(kg: f64, format: Format) -> String {
     let decimals = match kg {
         ..1.0 => 3,
         ..10.0 => 2,
         _ => 1,
     };
-    fixed(kg, decimals)
+    format.fixed(kg, decimals)
 }
 
 /// One line below the picture of a bar: a cell for each piece.
@@ -262,7 +288,7 @@ struct Row {
 }
 
 /// The lines below the picture, broken where there are more pieces than fit.
-fn table(flow: &mut Flow, rows: &[Row], pieces: usize) -> Result<(), DrawingError> {
+fn table(flow: &mut Flow, rows: &[Row], pieces: usize) -> Result<(), SheetError> {
     let mut cell: f64 = 0.0;
     for row in rows {
         for text in &row.cells {

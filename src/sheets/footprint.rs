@@ -1,16 +1,31 @@
 //! The footprint: the surface laid flat on the tiling of the pattern, and which tiles
 //! became units (paper, Fig. 9). It shows what `--origin` and `--rotate` change.
 
-use super::format::angle;
 use super::page::{BODY, Flow, Leaf, SMALL, TITLE};
 use super::support_map::{SCALE_BAR_HEIGHT, scale_bar};
+use super::text::TextError;
+use super::text::message::messages;
 use super::view::round_scale;
 use super::{SheetError, SheetSettings};
 use crate::drawing::font::{LEADING, elide, text_width, wrap};
-use crate::drawing::{Color, Dash, Draw, Drawing, DrawingError, Item, Paint, Point, Rect};
+use crate::drawing::{Color, Dash, Draw, Drawing, Item, Paint, Point, Rect};
 use crate::drawing::{Stroke, Weight, clip};
 use crate::frame::footprint::Footprint;
 use nalgebra::Point2;
+
+messages! {
+    mod say in "footprint.toml" {
+        "title" => Title {}
+        "own-title" => OwnTitle { model: String }
+        "scale" => Scale { scale: String }
+        "introduction" => Introduction {}
+        "start" => Start { x: String, y: String, unit: String, turn: String, edge: String }
+        "key-unit" => KeyUnit {}
+        "key-rod" => KeyRod {}
+        "key-border" => KeyBorder {}
+        "key-start" => KeyStart {}
+    }
+}
 
 /// White round the drawing on its own, mm.
 const MARGIN: f64 = 10.0;
@@ -59,12 +74,13 @@ pub fn drawing(footprint: &Footprint, settings: &SheetSettings) -> Result<Drawin
     let [width, height] = settings.paper.size();
     let mut sheet = Drawing::new(width, height);
     let mut area = sheet.frame().inset(MARGIN);
-    let title = format!("{}: footprint", settings.model);
+    let title = settings.say(say::OwnTitle { model: settings.model.clone() })?;
     let title = elide(&title, TITLE, Weight::Bold, area.width())?;
     sheet.layer(TEXTS).text([area.min[0], area.min[1] + TITLE], TITLE, title).bold();
     area.min[1] += TITLE * 1.4;
     let (n, bottom) = lay(footprint, &settings, area, &mut sheet)?;
-    sheet.layer(TEXTS).text([area.max[0], MARGIN + TITLE], BODY, format!("1:{n}")).end();
+    let scale = settings.say(say::Scale { scale: settings.format().plain(n) })?;
+    sheet.layer(TEXTS).text([area.max[0], MARGIN + TITLE], BODY, scale).end();
     sheet.height = bottom + MARGIN;
     Ok(sheet)
 }
@@ -74,10 +90,10 @@ pub(super) fn page(
     footprint: &Footprint,
     settings: &SheetSettings,
 ) -> Result<Vec<Leaf>, SheetError> {
-    let mut flow = Flow::new(settings, "footprint", "Footprint: the surface laid flat");
+    let mut flow = Flow::new(settings, "footprint", &settings.say(say::Title {})?);
     let area = flow.area();
     let (n, _) = lay(footprint, settings, area, flow.page())?;
-    Ok(flow.finish(Some(&format!("1:{n}"))))
+    Ok(flow.finish(Some(&settings.say(say::Scale { scale: settings.format().plain(n) })?)))
 }
 
 /// Text, picture, key and scale bar from the top of `area` down. Returns n of the scale
@@ -87,17 +103,17 @@ fn lay(
     settings: &SheetSettings,
     area: Rect,
     out: &mut Drawing,
-) -> Result<(f64, f64), DrawingError> {
+) -> Result<(f64, f64), SheetError> {
     let [left, top] = area.min;
     let mut lines = Vec::new();
-    for sentence in words(footprint, settings) {
+    for sentence in words(footprint, settings)? {
         lines.extend(wrap(&sentence, BODY, Weight::Regular, area.width())?);
     }
     let leading = BODY * LEADING;
     let picture_top = top + leading * lines.len() as f64 + GAP;
     out.layer(TEXTS).text_lines([left, top + BODY], BODY, leading, Default::default(), lines);
 
-    let key = Key::new(area.width())?;
+    let key = Key::new(area.width(), settings)?;
     let below = GAP + key.height + GAP + SCALE_BAR_HEIGHT;
     let room = (area.max[1] - below - picture_top).max(LEAST_PICTURE);
     let room = Rect::new([left, picture_top], [area.width(), room]);
@@ -108,29 +124,22 @@ fn lay(
     key.draw([left, y], &map, out);
     let y = y + key.height + GAP;
     let n = map.n;
-    scale_bar(out.layer(TEXTS), [left, y + SCALE_BAR_HEIGHT / 2.0], n, settings.units);
+    scale_bar(out.layer(TEXTS), [left, y + SCALE_BAR_HEIGHT / 2.0], n, settings.format());
     Ok((n, y + SCALE_BAR_HEIGHT))
 }
 
 /// What the picture shows, a paragraph each.
-fn words(footprint: &Footprint, settings: &SheetSettings) -> [String; 2] {
-    let units = settings.units;
+fn words(footprint: &Footprint, settings: &SheetSettings) -> Result<[String; 2], TextError> {
+    let format = settings.format();
     let Footprint { origin, rotation, edge, .. } = footprint;
-    [
-        "The surface laid flat, seen from outside, on the tiling of its pattern. Lengths hold in \
-         the mean: a curved surface is larger in some places than its flat picture, and smaller \
-         in others."
-            .to_owned(),
-        format!(
-            "The pattern starts at {}, {} {} from the middle (--origin), turned by {} (--rotate). \
-             Tile edge {} (--unit).",
-            units.length(origin.x),
-            units.length(origin.y),
-            units.name(),
-            angle(*rotation),
-            units.measure(*edge)
-        ),
-    ]
+    let start = say::Start {
+        x: format.length(origin.x),
+        y: format.length(origin.y),
+        unit: settings.units.name().to_owned(),
+        turn: format.angle(*rotation),
+        edge: format.measure(*edge),
+    };
+    Ok([settings.say(say::Introduction {})?, settings.say(start)?])
 }
 
 /// The footprint on paper.
@@ -234,18 +243,23 @@ fn cross(out: &mut impl Draw, [x, y]: Point, pen: Stroke) {
 struct Key {
     /// Where each sign with its words begins, from the top left corner.
     places: Vec<Point>,
+    words: [String; 4],
     height: f64,
 }
 
 impl Key {
-    const WORDS: [&'static str; 4] =
-        ["tile that became a unit", "rod", "border of the surface", "start of the pattern"];
     /// Height of a line, mm.
     const LINE: f64 = 5.5;
 
-    fn new(width: f64) -> Result<Self, DrawingError> {
+    fn new(width: f64, settings: &SheetSettings) -> Result<Self, SheetError> {
+        let words = [
+            settings.say(say::KeyUnit {})?,
+            settings.say(say::KeyRod {})?,
+            settings.say(say::KeyBorder {})?,
+            settings.say(say::KeyStart {})?,
+        ];
         let (mut places, mut x, mut y) = (Vec::new(), 0.0, 0.0);
-        for words in Self::WORDS {
+        for words in &words {
             let wide = SIGN + 1.5 + text_width(words, SMALL, Weight::Regular)?;
             if x > 0.0 && x + wide > width {
                 (x, y) = (0.0, y + Self::LINE);
@@ -253,12 +267,12 @@ impl Key {
             places.push([x, y]);
             x += wide + GAP;
         }
-        Ok(Self { places, height: y + Self::LINE })
+        Ok(Self { places, words, height: y + Self::LINE })
     }
 
     fn draw(&self, at: Point, map: &Map, out: &mut Drawing) {
         let corners = self.places.iter().map(|p| [at[0] + p[0], at[1] + p[1]]);
-        for (i, ([x, y], words)) in corners.zip(Self::WORDS).enumerate() {
+        for (i, ([x, y], words)) in corners.zip(&self.words).enumerate() {
             let y = y + Self::LINE / 2.0;
             let keys = out.layer("key");
             match i {
@@ -269,7 +283,7 @@ impl Key {
                 2 => keys.line([x, y], [x + SIGN, y], map.border()),
                 _ => cross(keys, [x + SIGN / 2.0, y], START_PEN),
             }
-            out.layer(TEXTS).text([x + SIGN + 1.5, y], SMALL, words).vcenter();
+            out.layer(TEXTS).text([x + SIGN + 1.5, y], SMALL, words.as_str()).vcenter();
         }
     }
 }
@@ -278,7 +292,7 @@ impl Key {
 mod tests {
     use super::*;
     use crate::drawing::{Shape, bounds, svg};
-    use crate::sheets::{Paper, PaperUnits};
+    use crate::sheets::{Language, Paper, PaperUnits, Texts};
     use crate::shop::fixture;
     use std::sync::LazyLock;
 
@@ -293,6 +307,7 @@ mod tests {
             units: PaperUnits::Mm,
             density: 600.0,
             notes,
+            texts: Texts::built_in(Language::En).unwrap(),
         }
     }
 

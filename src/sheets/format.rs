@@ -28,14 +28,6 @@ impl PaperUnits {
         }
     }
 
-    /// The unit in words.
-    pub fn plural(self) -> &'static str {
-        match self {
-            Self::Mm => "mm",
-            Self::Inch => "inches",
-        }
-    }
-
     /// A length without its unit: every length on paper is printed by this.
     pub fn length(self, mm: f64) -> String {
         match self {
@@ -65,7 +57,7 @@ impl PaperUnits {
             many => {
                 let all = || many.iter().flat_map(|(ends, _)| *ends);
                 let least = all().fold(f64::INFINITY, f64::min);
-                format!("{} to {}", self.length(least), self.measure(all().fold(least, f64::max)))
+                format!("{}–{}", self.length(least), self.measure(all().fold(least, f64::max)))
             }
         }
     }
@@ -81,6 +73,75 @@ impl PaperUnits {
 
 /// As many diameters are named one by one.
 const FEW_DIAMETERS: usize = 3;
+
+/// How figures are printed on the papers: lengths in their unit, decimals after their sign.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Format {
+    /// The unit of lengths.
+    pub units: PaperUnits,
+    /// The sign between whole numbers and decimals.
+    pub decimal: char,
+}
+
+impl Format {
+    /// A length without its unit.
+    pub fn length(self, mm: f64) -> String {
+        self.local(self.units.length(mm))
+    }
+
+    /// A length with its unit.
+    pub fn measure(self, mm: f64) -> String {
+        self.local(self.units.measure(mm))
+    }
+
+    /// The diameter of a stick, as [`PaperUnits::diameter`].
+    pub fn diameter(self, ends: [f64; 2]) -> String {
+        self.local(self.units.diameter(ends))
+    }
+
+    /// The diameters of all rods, as [`PaperUnits::diameters`].
+    pub fn diameters(self, frame: &Frame) -> String {
+        self.local(self.units.diameters(frame))
+    }
+
+    /// A long length with its unit: metres, or feet.
+    pub fn total(self, mm: f64) -> String {
+        self.local(self.units.total(mm))
+    }
+
+    /// An angle given in radians, in degrees.
+    pub fn angle(self, radians: f64) -> String {
+        self.local(angle(radians))
+    }
+
+    /// A heading given in radians, in degrees from 0 to below 360.
+    pub fn heading(self, radians: f64) -> String {
+        self.local(heading(radians))
+    }
+
+    /// A share in per cent.
+    pub fn percent(self, share: f64) -> String {
+        self.local(format!("{} %", fixed(share * 100.0, 1)))
+    }
+
+    /// With so many decimals; never `-0.0`.
+    pub fn fixed(self, x: f64, decimals: usize) -> String {
+        self.local(fixed(x, decimals))
+    }
+
+    /// With as many decimals as it has: `1:2.5` of a scale.
+    pub fn plain(self, x: f64) -> String {
+        self.local(x.to_string())
+    }
+
+    /// Figures are made with a point, and get their sign here.
+    pub fn local(self, figures: String) -> String {
+        match self.decimal {
+            '.' => figures,
+            sign => figures.replace('.', &sign.to_string()),
+        }
+    }
+}
 
 /// An angle given in radians, in degrees.
 pub(super) fn angle(radians: f64) -> String {
@@ -98,11 +159,6 @@ pub(super) fn heading(radians: f64) -> String {
 /// A number of things: `1 rod`, `2 rods`.
 pub(super) fn counted(n: usize, noun: &str) -> String {
     format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
-}
-
-/// A share in per cent.
-pub(super) fn percent(share: f64) -> String {
-    format!("{} %", fixed(share * 100.0, 1))
 }
 
 /// With so many decimals; never `-0.0`.
@@ -139,7 +195,7 @@ mod tests {
         frame.rods[Id::new(2)].diameters = [5.0; 2];
         assert_eq!(PaperUnits::Mm.diameters(&frame), "3.0 mm, 5.0 mm, 6.0→4.0 mm");
         frame.rods[Id::new(3)].diameters = [2.0, 3.0];
-        assert_eq!(PaperUnits::Mm.diameters(&frame), "2.0 to 6.0 mm");
+        assert_eq!(PaperUnits::Mm.diameters(&frame), "2.0–6.0 mm");
     }
 
     #[test]
@@ -147,6 +203,20 @@ mod tests {
         assert_eq!(heading(359.96_f64.to_radians()), "0.0°");
         assert_eq!(heading(359.94_f64.to_radians()), "359.9°");
         assert_eq!(angle(1.0_f64.atan()), "45.0°");
-        assert_eq!(percent(0.1234), "12.3 %");
+    }
+
+    #[test]
+    fn decimals_stand_after_the_sign_of_the_language() {
+        let format = Format { units: PaperUnits::Mm, decimal: ',' };
+        assert_eq!(format.measure(112.44), "112,4 mm");
+        assert_eq!(format.diameter([6.0, 4.0]), "6,0→4,0 mm");
+        assert_eq!(format.angle(0.5f64.to_radians()), "0,5°");
+        assert_eq!(format.percent(0.1234), "12,3 %");
+        assert_eq!((format.plain(2.5), format.plain(10.0)), ("2,5".to_owned(), "10".to_owned()));
+        let english = Format { decimal: '.', ..format };
+        assert_eq!(
+            (english.percent(0.1234), english.fixed(-0.0, 2)),
+            ("12.3 %".into(), "0.00".into())
+        );
     }
 }

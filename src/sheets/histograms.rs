@@ -6,23 +6,58 @@
 
 use super::format::fixed;
 use super::page::{BODY, FAINT, SMALL, THIN};
+use super::text::message::messages;
+use super::text::{TextError, Texts};
+use super::{Format, PaperUnits, SheetError};
 use crate::drawing::font::{LEADING, text_width, wrap};
-use crate::drawing::{Color, Draw, Drawing, DrawingError, Paint, Point, Rect, Stroke, Weight};
+use crate::drawing::{Color, Draw, Drawing, Paint, Point, Rect, Stroke, Weight};
 use crate::frame::histogram::{BeforeAfter, Histogram};
 use crate::frame::measure::Measures;
 use crate::frame::relax::Relaxing;
+
+messages! {
+    mod say in "figures.toml" {
+        "before" => Before {}
+        "after" => After {}
+        "more" => More {}
+        "angles" => Angles {}
+        "angles-unit" => AnglesUnit {}
+        "angles-of" => AnglesOf {}
+        "angles-good" => AnglesGood {}
+        "sides" => Sides {}
+        "sides-unit" => SidesUnit {}
+        "sides-of" => SidesOf {}
+        "sides-good" => SidesGood {}
+        "distance" => Distance {}
+        "distance-unit" => DistanceUnit {}
+        "distance-of" => DistanceOf {}
+        "distance-good" => DistanceGood {}
+        "moves" => Moves {}
+        "moves-unit" => MovesUnit {}
+        "moves-of" => MovesOf {}
+        "moves-good" => MovesGood {}
+        "relaxed-angles" => RelaxedAngles {}
+        "relaxed-angles-unit" => RelaxedAnglesUnit {}
+        "relaxed-angles-of" => RelaxedAnglesOf {}
+        "relaxed-angles-good" => RelaxedAnglesGood {}
+        "relaxed-distances" => RelaxedDistances {}
+        "relaxed-distances-unit" => RelaxedDistancesUnit {}
+        "relaxed-distances-of" => RelaxedDistancesOf {}
+        "relaxed-distances-good" => RelaxedDistancesGood {}
+    }
+}
 
 /// Histograms of one kind of figure, to be compared.
 #[derive(Clone, PartialEq, Debug)]
 pub struct HistogramPair {
     /// What is measured.
-    pub title: &'static str,
+    pub title: String,
     /// What the bars run over, with its unit.
-    pub unit: &'static str,
-    /// What is counted.
-    pub of: &'static str,
+    pub unit: String,
+    /// What is counted, as `% of corners`.
+    pub of: String,
     /// What a good one looks like, in plain words.
-    pub good: &'static str,
+    pub good: String,
     /// Before the rods were moved, if that differs; in the same bins.
     pub before: Option<Histogram>,
     /// As built.
@@ -60,82 +95,83 @@ const OUTLINE: Stroke = Stroke::new(0.3).color(Color::DARK_GREY);
 /// Height of a line of small text, mm.
 const LINE: f64 = SMALL * LEADING;
 
-fn both(
-    title: &'static str,
-    unit: &'static str,
-    of: &'static str,
-    good: &'static str,
-    pair: &BeforeAfter,
-) -> HistogramPair {
+/// Words for title, unit, what is counted and what is good, and the figures.
+fn both([title, unit, of, good]: [String; 4], pair: &BeforeAfter) -> HistogramPair {
     let BeforeAfter { before, after } = pair.clone();
     HistogramPair { title, unit, of, good, before: Some(before), after }
 }
 
 /// The histograms of a pattern that was relaxed (paper, Fig. 12).
-pub fn relaxing_pairs(relaxing: &Relaxing) -> Vec<HistogramPair> {
+///
+/// # Errors
+/// [`TextError`] when a text cannot be put together.
+pub fn relaxing_pairs(relaxing: &Relaxing, texts: &Texts) -> Result<Vec<HistogramPair>, TextError> {
     let lengths = BeforeAfter {
         before: per_cent(&relaxing.lengths.before),
         after: per_cent(&relaxing.lengths.after),
     };
-    vec![
-        both(
-            "Relaxing: angles between units",
-            "off the angle in the plane, degrees",
-            "angles",
-            "Before and after relaxing. Good: tall bars at the left.",
-            &relaxing.angles,
-        ),
-        both(
-            "Relaxing: distances of units",
-            "off the mean distance, per cent",
-            "neighbours",
-            "Before and after relaxing. Good: bars farther to the left; units are alike in size.",
-            &lengths,
-        ),
-    ]
+    let angles = [
+        texts.say(say::RelaxedAngles {})?,
+        texts.say(say::RelaxedAnglesUnit {})?,
+        texts.say(say::RelaxedAnglesOf {})?,
+        texts.say(say::RelaxedAnglesGood {})?,
+    ];
+    let distances = [
+        texts.say(say::RelaxedDistances {})?,
+        texts.say(say::RelaxedDistancesUnit {})?,
+        texts.say(say::RelaxedDistancesOf {})?,
+        texts.say(say::RelaxedDistancesGood {})?,
+    ];
+    Ok(vec![both(angles, &relaxing.angles), both(distances, &lengths)])
 }
 
 /// The histograms of a frame; those without figures are left out.
-pub fn histogram_pairs(measures: &Measures) -> Vec<HistogramPair> {
+///
+/// # Errors
+/// [`TextError`] when a text cannot be put together.
+pub fn histogram_pairs(
+    measures: &Measures,
+    texts: &Texts,
+) -> Result<Vec<HistogramPair>, TextError> {
     let found = &measures.histograms;
-    let sides = BeforeAfter {
+    let unit_sides = BeforeAfter {
         before: per_cent(&found.unit_sides.before),
         after: per_cent(&found.unit_sides.after),
     };
     let moves = HistogramPair {
-        title: "Moves of the rods",
-        unit: "moved in closing, rod diameters",
-        of: "rod ends",
-        good: "Good: nearly all below 1, so that the frame lies where it was drawn.",
+        title: texts.say(say::Moves {})?,
+        unit: texts.say(say::MovesUnit {})?,
+        of: texts.say(say::MovesOf {})?,
+        good: texts.say(say::MovesGood {})?,
         before: None,
         after: found.moves.clone(),
     };
+    let angles = [
+        texts.say(say::Angles {})?,
+        texts.say(say::AnglesUnit {})?,
+        texts.say(say::AnglesOf {})?,
+        texts.say(say::AnglesGood {})?,
+    ];
+    let sides = [
+        texts.say(say::Sides {})?,
+        texts.say(say::SidesUnit {})?,
+        texts.say(say::SidesOf {})?,
+        texts.say(say::SidesGood {})?,
+    ];
+    let distance = [
+        texts.say(say::Distance {})?,
+        texts.say(say::DistanceUnit {})?,
+        texts.say(say::DistanceOf {})?,
+        texts.say(say::DistanceGood {})?,
+    ];
     let mut pairs = vec![
-        both(
-            "Angles of the units",
-            "off the regular polygon's angle, degrees",
-            "corners",
-            "Good: tall bars at the left and little beyond 10°; the holes look alike.",
-            &found.unit_angles,
-        ),
-        both(
-            "Sides of the units",
-            "off the mean side of the unit, per cent",
-            "sides",
-            "Good: tall bars at the left and little beyond 20 %; the holes look alike.",
-            &sides,
-        ),
-        both(
-            "Distance from the surface",
-            "contact to surface, rod diameters",
-            "contacts",
-            "Good: nearly all below 1, so that the frame has the shape you asked for.",
-            &found.off_surface,
-        ),
+        both(angles, &found.unit_angles),
+        both(sides, &unit_sides),
+        both(distance, &found.off_surface),
         moves,
     ];
     pairs.retain(|pair| pair.after.total() > 0);
-    pairs
+    Ok(pairs)
 }
 
 fn per_cent(part: &Histogram) -> Histogram {
@@ -145,34 +181,34 @@ fn per_cent(part: &Histogram) -> Histogram {
 /// The histograms as a picture on its own, two beside each other.
 ///
 /// # Errors
-/// [`DrawingError`] when a text has characters that the font has not.
-pub fn histograms(pairs: &[HistogramPair]) -> Result<Drawing, DrawingError> {
+/// [`SheetError::Drawing`] when a text has characters that the font has not.
+pub fn histograms(pairs: &[HistogramPair], texts: &Texts) -> Result<Drawing, SheetError> {
     let rows = pairs.len().div_ceil(2) as f64;
     let height = 2.0 * MARGIN + KEY_HEIGHT + rows * (HEIGHT + GAP) - GAP;
     let mut picture = Drawing::new(WIDTH, height.max(2.0 * MARGIN + KEY_HEIGHT));
     // On dark screens black lines need a ground.
     let size = [picture.width, picture.height];
     picture.rect([0.0, 0.0], size, Paint::from(Color::WHITE));
-    key([MARGIN, MARGIN], &mut picture)?;
+    key([MARGIN, MARGIN], texts, &mut picture)?;
     let mut y = MARGIN + KEY_HEIGHT;
     for row in pairs.chunks(2) {
-        pair_row(row, Rect::new([MARGIN, y], [WIDTH - 2.0 * MARGIN, HEIGHT]), &mut picture)?;
+        let room = Rect::new([MARGIN, y], [WIDTH - 2.0 * MARGIN, HEIGHT]);
+        pair_row(row, room, texts, &mut picture)?;
         y += HEIGHT + GAP;
     }
     Ok(picture)
 }
 
 /// What outlines and filled bars mean, from the top left corner.
-pub(super) fn key([x, y]: Point, out: &mut impl Draw) -> Result<(), DrawingError> {
+pub(super) fn key([x, y]: Point, texts: &Texts, out: &mut impl Draw) -> Result<(), SheetError> {
     let (size, middle) = ([5.0, 2.6], y + SMALL * 0.5);
-    let words =
-        ["before closing: rods straight, not yet touching", "as built: all contacts closed"];
+    let words = [texts.say(say::Before {})?, texts.say(say::After {})?];
     let mut x = x;
     for (i, words) in words.into_iter().enumerate() {
         let paint = if i == 0 { Paint::from(OUTLINE) } else { Paint::from(filled()) };
         out.rect([x, middle - size[1] / 2.0], size, paint);
-        out.text([x + size[0] + 1.5, middle], SMALL, words).vcenter();
-        x += size[0] + 1.5 + text_width(words, SMALL, Weight::Regular)? + GAP;
+        out.text([x + size[0] + 1.5, middle], SMALL, words.as_str()).vcenter();
+        x += size[0] + 1.5 + text_width(&words, SMALL, Weight::Regular)? + GAP;
     }
     Ok(())
 }
@@ -186,25 +222,32 @@ fn filled() -> Color {
 pub(super) fn pair_row(
     row: &[HistogramPair],
     room: Rect,
+    texts: &Texts,
     out: &mut impl Draw,
-) -> Result<(), DrawingError> {
+) -> Result<(), SheetError> {
     let width = (room.width() - GAP) / 2.0;
     for (i, pair) in row.iter().enumerate() {
         let left = room.min[0] + (width + GAP) * i as f64;
-        panel(pair, Rect::new([left, room.min[1]], [width, room.height()]), out)?;
+        let room = Rect::new([left, room.min[1]], [width, room.height()]);
+        panel(pair, room, texts, out)?;
     }
     Ok(())
 }
 
 /// One histogram with its texts, filling `room`.
-fn panel(pair: &HistogramPair, room: Rect, out: &mut impl Draw) -> Result<(), DrawingError> {
+fn panel(
+    pair: &HistogramPair,
+    room: Rect,
+    texts: &Texts,
+    out: &mut impl Draw,
+) -> Result<(), SheetError> {
     let [left, top] = room.min;
-    out.text([left, top + BODY], BODY, pair.title).bold();
-    let good = wrap(pair.good, SMALL, Weight::Regular, room.width())?;
+    out.text([left, top + BODY], BODY, pair.title.as_str()).bold();
+    let good = wrap(&pair.good, SMALL, Weight::Regular, room.width())?;
     let y = top + BODY * LEADING + SMALL;
     out.text_lines([left, y], SMALL, LINE, Default::default(), &good);
     let y = y + LINE * good.len() as f64 + 0.8;
-    out.text([left, y], SMALL, format!("% of {}", pair.of)).color(Color::DARK_GREY);
+    out.text([left, y], SMALL, pair.of.as_str()).color(Color::DARK_GREY);
 
     let bars = Rect {
         min: [left + LEFT, y + 2.2],
@@ -216,9 +259,9 @@ fn panel(pair: &HistogramPair, room: Rect, out: &mut impl Draw) -> Result<(), Dr
     if let Some(before) = &pair.before {
         plot.bars(before, 0.0, Paint::from(OUTLINE), out);
     }
-    plot.figure_axis(out)?;
+    plot.figure_axis(texts, out)?;
     let at = [bars.center()[0], room.max[1] - 0.6];
-    out.text(at, SMALL, pair.unit).middle().color(Color::DARK_GREY);
+    out.text(at, SMALL, pair.unit.as_str()).middle().color(Color::DARK_GREY);
     Ok(())
 }
 
@@ -287,11 +330,12 @@ impl Plot {
     }
 
     /// The line below the bars, with figures where bins meet.
-    fn figure_axis(&self, out: &mut impl Draw) -> Result<(), DrawingError> {
+    fn figure_axis(&self, texts: &Texts, out: &mut impl Draw) -> Result<(), SheetError> {
+        let format = Format { units: PaperUnits::Mm, decimal: texts.decimal() };
         let foot = self.area.max[1];
         out.line([self.area.min[0], foot], [self.area.max[0], foot], THIN);
         let decimals = if self.bin < 0.95 { 1 } else { 0 };
-        let label = |i: usize| fixed(self.bin * i as f64, decimals);
+        let label = |i: usize| format.fixed(self.bin * i as f64, decimals);
         let width = |text: &str| text_width(text, SMALL, Weight::Regular);
         let widest = width(&label(self.shown))? + APART;
         let wide = self.x(1) - self.x(0);
@@ -299,8 +343,9 @@ impl Plot {
         let baseline = foot + 1.0 + SMALL;
         let mut end = self.area.max[0] + RIGHT;
         if self.open {
-            out.text([end, baseline], SMALL, "more").end();
-            end -= width("more")? + APART;
+            let more = texts.say(say::More {})?;
+            end -= width(&more)? + APART;
+            out.text([self.area.max[0] + RIGHT, baseline], SMALL, more).end();
         }
         for i in (0..=self.shown).step_by(every) {
             out.line([self.x(i), foot], [self.x(i), foot + 0.9], THIN);
@@ -324,14 +369,19 @@ fn shares(histogram: &Histogram) -> impl Iterator<Item = f64> {
 mod tests {
     use super::*;
     use crate::drawing::{Figure, Item, Shape};
+    use crate::sheets::Language;
+
+    fn english() -> Texts {
+        Texts::built_in(Language::En).unwrap()
+    }
 
     fn pair(before: Option<Vec<usize>>, after: Vec<usize>) -> HistogramPair {
         let histogram = |counts| Histogram { bin: 0.1, counts };
         HistogramPair {
-            title: "Angles",
-            unit: "degrees",
-            of: "corners",
-            good: "Good: all at the left.",
+            title: "Angles".to_owned(),
+            unit: "degrees".to_owned(),
+            of: "% of corners".to_owned(),
+            good: "Good: all at the left.".to_owned(),
             before: before.map(histogram),
             after: histogram(after),
         }
@@ -354,7 +404,8 @@ mod tests {
 
     #[test]
     fn bars_are_as_tall_as_their_part_of_all() {
-        let drawing = histograms(&[pair(Some(vec![4, 4, 2]), vec![30, 0, 10])]).unwrap();
+        let drawing =
+            histograms(&[pair(Some(vec![4, 4, 2]), vec![30, 0, 10])], &english()).unwrap();
         let [after, before] = heights(&drawing);
         assert_eq!((after.len(), before.len()), (2, 3));
         assert!((after[0] / after[1] - 3.0).abs() < 1e-9);
@@ -374,7 +425,7 @@ mod tests {
                 all.push(one);
             }
         }
-        let drawing = histograms(&all).unwrap();
+        let drawing = histograms(&all, &english()).unwrap();
         let mut seen: Vec<Rect> = Vec::new();
         for item in drawing.items() {
             if let Item::Text(text) = item {
@@ -390,7 +441,7 @@ mod tests {
     #[test]
     fn the_last_bar_says_that_it_takes_all_above() {
         let says_more = |counts: Vec<usize>| {
-            let drawing = histograms(&[pair(None, counts)]).unwrap();
+            let drawing = histograms(&[pair(None, counts)], &english()).unwrap();
             drawing.items().any(|i| matches!(i, Item::Text(t) if t.string == "more"))
         };
         let (mut near, mut far) = (vec![0; 20], vec![0; 20]);
@@ -400,7 +451,7 @@ mod tests {
 
     #[test]
     fn nothing_to_show_is_drawn_as_nothing() {
-        assert!(histograms(&[]).is_ok());
-        assert!(histograms(&[pair(None, vec![0; 20])]).is_ok());
+        assert!(histograms(&[], &english()).is_ok());
+        assert!(histograms(&[pair(None, vec![0; 20])], &english()).is_ok());
     }
 }

@@ -1,10 +1,19 @@
 //! What a reader checks a print with, and the signs that the papers use.
 
-use super::PaperUnits;
 use super::page::{SMALL, THIN};
+use super::text::TextError;
+use super::text::message::messages;
+use super::{PaperUnits, SheetSettings};
 use crate::drawing::{Color, Dash, Draw, Item, Point, Stroke};
 use crate::shop::Side;
 use crate::units::MM_PER_INCH;
+
+messages! {
+    mod say in "legend.toml" {
+        "box-mm" => BoxMm {}
+        "box-inch" => BoxInch {}
+    }
+}
 
 /// Sides of the outer calibration box, mm: 10 × 5 cm.
 const BOX_CM: [f64; 2] = [100.0, 50.0];
@@ -42,7 +51,11 @@ pub(super) fn sign(out: &mut impl Draw, [x, y]: Point, letter: &str, side: Side)
 }
 
 /// The calibration box, its common corner at `[x, y]`: 100 × 50 mm whole, 4 × 2 in broken.
-pub(super) fn calibration_box(out: &mut impl Draw, [x, y]: Point) {
+pub(super) fn calibration_box(
+    out: &mut impl Draw,
+    [x, y]: Point,
+    settings: &SheetSettings,
+) -> Result<(), TextError> {
     out.rect([x, y], BOX_CM, Stroke::new(0.25));
     let [w, h] = BOX_INCH;
     let inch = Stroke::new(0.2).dash(Dash::DASHED);
@@ -51,8 +64,9 @@ pub(super) fn calibration_box(out: &mut impl Draw, [x, y]: Point) {
         inch,
     );
     let middle = x + BOX_CM[0] / 2.0;
-    out.text([middle, y + BOX_CM[1] - 2.0], SMALL, "whole line: 100 × 50 mm").middle();
-    out.text([middle, y + h + SMALL + 0.8], SMALL, "broken line: 4 × 2 in").middle();
+    out.text([middle, y + BOX_CM[1] - 2.0], SMALL, settings.say(say::BoxMm {})?).middle();
+    out.text([middle, y + h + SMALL + 0.8], SMALL, settings.say(say::BoxInch {})?).middle();
+    Ok(())
 }
 
 /// Room that [`calibration_box`] takes, mm.
@@ -106,6 +120,7 @@ fn ruler_items(room: f64, units: PaperUnits) -> Vec<Item> {
 mod tests {
     use super::*;
     use crate::drawing::{Shape, bounds};
+    use crate::sheets::Paper;
 
     #[test]
     fn rulers_are_true_and_as_long_as_fits() {
@@ -135,7 +150,12 @@ mod tests {
     #[test]
     fn the_calibration_box_has_both_sizes() {
         let mut items: Vec<Item> = Vec::new();
-        calibration_box(&mut items, [10.0, 20.0]);
+        calibration_box(
+            &mut items,
+            [10.0, 20.0],
+            &super::super::tests::settings(Paper::A4, PaperUnits::Mm),
+        )
+        .unwrap();
         let size = |i: usize| bounds(&items[i..=i]).unwrap().size();
         assert!((0..2).all(|k| (size(0)[k] - [100.0, 50.0][k]).abs() < 1e-9));
         assert!((0..2).all(|k| (size(1)[k] - [4.0 * 25.4, 2.0 * 25.4][k]).abs() < 1e-9));

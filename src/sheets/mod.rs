@@ -16,6 +16,7 @@ mod format;
 mod histograms;
 mod legend;
 mod line_picture;
+pub mod notes;
 mod page;
 mod paper;
 mod pattern_picture;
@@ -25,25 +26,28 @@ mod rod_cards;
 mod strip;
 pub mod support_map;
 mod support_tiles;
+pub mod text;
 mod view;
 
 #[cfg(test)]
 mod tests;
 
 pub use contact_sheet::{Exhibit, contact_sheet};
-pub use format::PaperUnits;
+pub use format::{Format, PaperUnits};
 pub use histograms::{HistogramPair, histogram_pairs, histograms, relaxing_pairs};
-pub use page::Sheet;
+pub use page::{Document, Sheet, document_title};
 pub use paper::{Paper, PaperError};
 pub use pattern_picture::{PictureError, pattern_picture};
 pub use pattern_sheet::{PatternEntry, pattern_sheet};
 pub use pictures::pictures;
+pub use text::{Language, TextError, Texts};
 
 use crate::drawing::DrawingError;
 use crate::frame::Frame;
 use crate::frame::footprint::Footprint;
 use crate::frame::measure::Measures;
 use crate::shop::CutPlan;
+use text::message::Message;
 
 /// How the papers look.
 #[derive(Clone, PartialEq, Debug)]
@@ -58,14 +62,19 @@ pub struct SheetSettings {
     pub density: f64,
     /// Lines printed on the cover, such as the command that repeats the run.
     pub notes: Vec<String>,
+    /// What is said on the papers, in their language.
+    pub texts: Texts,
 }
 
 /// Why there are no papers.
-#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error)]
 pub enum SheetError {
     /// A page cannot be drawn.
     #[error(transparent)]
     Drawing(#[from] DrawingError),
+    /// A text cannot be put together.
+    #[error(transparent)]
+    Text(#[from] TextError),
     /// The paper leaves no room for the pages.
     #[error(
         "paper of {width} × {height} mm is too small: the pages need at least {least_width} × {least_height} mm"
@@ -103,10 +112,20 @@ pub fn sheets(
     leaves.extend(cut_list::cut_list(frame, plan, &settings)?);
     leaves.extend(rod_cards::rod_cards(frame, &settings)?);
     leaves.extend(support_tiles::overview(frame, &settings)?);
-    page::stamp(leaves, &settings.units.diameters(frame), &settings)
+    page::stamp(leaves, &settings.format().diameters(frame), &settings)
 }
 
 impl SheetSettings {
+    /// How figures are printed.
+    pub fn format(&self) -> Format {
+        Format { units: self.units, decimal: self.texts.decimal() }
+    }
+
+    /// Puts a message into words.
+    fn say(&self, message: impl Message) -> Result<String, TextError> {
+        self.texts.say(message)
+    }
+
     /// The settings with texts that the font can print, if the paper is large enough.
     fn checked(&self) -> Result<Self, SheetError> {
         let [width, height] = self.paper.size();

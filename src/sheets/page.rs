@@ -1,9 +1,22 @@
 //! The frame of every page, and text and tables that flow over pages.
 
-use super::{PaperUnits, SheetError, SheetSettings};
+use super::text::message::messages;
+use super::text::{TextError, Texts};
+use super::{Format, PaperUnits, SheetError, SheetSettings};
 use crate::drawing::font::{LEADING, elide, text_width, wrap};
 use crate::drawing::pdf::Page;
 use crate::drawing::{Anchor, Color, Draw, Drawing, DrawingError, Rect, Stroke, Weight};
+
+messages! {
+    mod say in "page.toml" {
+        "language" => Language {}
+        "decimal" => Decimal {}
+        "page-number" => PageNumber { number: usize, count: usize }
+        "facts" => Facts { diameters: String, scale: String, inches: bool }
+        "sheets" => Sheets { model: String }
+        "support-map" => SupportMap { model: String }
+    }
+}
 
 /// White border of every page, mm: what common printers cannot print on, and some.
 pub(super) const MARGIN: f64 = 10.0;
@@ -34,6 +47,27 @@ pub(super) const TABLE_LEADING: f64 = 1.55;
 pub(super) const THIN: Stroke = Stroke::new(0.15);
 /// Faint lines between the rows of a table.
 pub(super) const FAINT: Stroke = Stroke::new(0.1).color(Color::LIGHT_GREY);
+
+/// A document of several pages.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Document {
+    /// The building sheets.
+    Sheets,
+    /// The map of the feet.
+    SupportMap,
+}
+
+/// The title of a document of a model.
+///
+/// # Errors
+/// [`TextError`] when a text cannot be put together.
+pub fn document_title(document: Document, model: &str, texts: &Texts) -> Result<String, TextError> {
+    let model = model.to_owned();
+    match document {
+        Document::Sheets => texts.say(say::Sheets { model }),
+        Document::SupportMap => texts.say(say::SupportMap { model }),
+    }
+}
 
 /// A finished page.
 #[derive(Clone, PartialEq, Debug)]
@@ -98,18 +132,20 @@ fn title_block(
     count: usize,
     diameters: &str,
     settings: &SheetSettings,
-) -> Result<(), DrawingError> {
+) -> Result<(), SheetError> {
     let area = area(settings);
     let ([left, right], top) = ([area.min[0], area.max[0]], MARGIN);
     let paper = &mut leaf.drawing;
-    let page = format!("page {number}/{count}");
+    let page = settings.say(say::PageNumber { number, count })?;
     let room = area.width() - text_width(&page, BODY, Weight::Regular)? - 5.0;
     paper.text([left, top + 4.0], TITLE, elide(&settings.model, TITLE, Weight::Bold, room)?).bold();
     paper.text([right, top + 4.0], BODY, page).end();
 
-    let scale = leaf.scale.as_ref().map_or(String::new(), |s| format!("scale {s} · "));
-    let units = settings.units;
-    let facts = format!("rod Ø {diameters} · {scale}lengths in {}", units.plural());
+    let facts = settings.say(say::Facts {
+        diameters: diameters.to_owned(),
+        scale: leaf.scale.clone().unwrap_or_default(),
+        inches: settings.units == PaperUnits::Inch,
+    })?;
     let room = area.width() - text_width(&facts, BODY, Weight::Regular)? - 5.0;
     paper.text([left, top + 9.0], BODY, elide(&leaf.title, BODY, Weight::Regular, room)?);
     paper.text([right, top + 9.0], BODY, facts).end();
@@ -119,25 +155,25 @@ fn title_block(
 
 /// One column of a table.
 pub(super) struct Column {
-    head: &'static str,
+    head: String,
     anchor: Anchor,
     wrap: bool,
 }
 
 impl Column {
     /// Words, from the left.
-    pub fn text(head: &'static str) -> Self {
-        Self { head, anchor: Anchor::Start, wrap: false }
+    pub fn text(head: impl Into<String>) -> Self {
+        Self { head: head.into(), anchor: Anchor::Start, wrap: false }
     }
 
     /// Figures, aligned at their right ends.
-    pub fn figure(head: &'static str) -> Self {
-        Self { head, anchor: Anchor::End, wrap: false }
+    pub fn figure(head: impl Into<String>) -> Self {
+        Self { head: head.into(), anchor: Anchor::End, wrap: false }
     }
 
     /// Words that take what room is left, over as many lines as needed. One a table.
-    pub fn wrapped(head: &'static str) -> Self {
-        Self { head, anchor: Anchor::Start, wrap: true }
+    pub fn wrapped(head: impl Into<String>) -> Self {
+        Self { head: head.into(), anchor: Anchor::Start, wrap: true }
     }
 }
 
@@ -170,9 +206,9 @@ impl<'a> Flow<'a> {
         area(self.settings)
     }
 
-    /// How lengths are printed.
-    pub fn units(&self) -> PaperUnits {
-        self.settings.units
+    /// How figures are printed.
+    pub fn format(&self) -> Format {
+        self.settings.format()
     }
 
     /// What is left of the page, mm.
@@ -260,7 +296,7 @@ impl<'a> Flow<'a> {
     }
 
     fn head(&mut self, table: &Table, grid: &Grid) {
-        let heads: Vec<String> = table.columns.iter().map(|c| c.head.to_owned()).collect();
+        let heads: Vec<String> = table.columns.iter().map(|c| c.head.clone()).collect();
         self.cells(table, grid, &heads, Weight::Bold);
         let y = self.y;
         let [left, right] = [self.area().min[0], self.area().max[0]];
@@ -309,7 +345,7 @@ impl Grid {
     fn new(table: &Table, area: Rect) -> Result<Self, DrawingError> {
         let mut width = Vec::with_capacity(table.columns.len());
         for (k, column) in table.columns.iter().enumerate() {
-            let mut widest = text_width(column.head, TABLE, Weight::Bold)?;
+            let mut widest = text_width(&column.head, TABLE, Weight::Bold)?;
             for row in table.rows.iter().filter(|_| !column.wrap) {
                 widest = widest.max(text_width(&row[k], TABLE, Weight::Regular)?);
             }

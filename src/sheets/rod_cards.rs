@@ -1,16 +1,35 @@
 //! Rod cards: for every rod its length, its marks at full size, and its partners.
 
-use super::format::{angle, heading};
 use super::page::{BODY, Flow, Leaf, SMALL, TABLE, THIN};
 use super::strip::Strip;
-use super::{PaperUnits, SheetError, SheetSettings};
+use super::text::TextError;
+use super::text::message::messages;
+use super::{SheetError, SheetSettings};
 use crate::drawing::font::{LEADING, elide, text_width};
-use crate::drawing::{Anchor, Color, Draw, DrawingError, Item, Placement, Stroke, Weight};
+use crate::drawing::{Anchor, Color, Draw, Item, Placement, Stroke, Weight};
 use crate::frame::{End, Frame};
 use crate::ids::RodId;
 use crate::shop::lengths::are_mixed;
 use crate::shop::{Foot, LengthClasses, Mark, Side, classes, feet, marks};
 use std::collections::BTreeMap;
+
+messages! {
+    mod say in "rod-cards.toml" {
+        "title" => Title {}
+        "cut" => Cut { length: String, diameter: String }
+        "class" => Class { name: String, count: usize }
+        "strip-broken" => StripBroken {}
+        "strip-full" => StripFull {}
+        "clock" => Clock { angle: String }
+        "meets" => Meets { end: String }
+        "ends" => Ends {}
+        "passes" => Passes {}
+        "no-contacts" => NoContacts {}
+        "foot-end" => FootEnd { end: String }
+        "foot-angles" => FootAngles { elevation: String, heading: String }
+        "foot-bevel" => FootBevel { end: String, angle: String }
+    }
+}
 
 /// Font size of the rod's number, mm.
 const NUMBER: f64 = 7.2;
@@ -25,8 +44,8 @@ const FOOT_BESIDE: f64 = 165.0;
 
 /// The pages of the rod cards.
 pub(super) fn rod_cards(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Leaf>, SheetError> {
-    let mut flow = Flow::new(settings, "rod-cards", "Rod cards");
-    let book = Book::new(frame, settings.units, flow.area().width());
+    let mut flow = Flow::new(settings, "rod-cards", &settings.say(say::Title {})?);
+    let book = Book::new(frame, settings, flow.area().width());
     for rod in frame.rods.ids() {
         let card = book.card(rod)?;
         flow.need(card.height);
@@ -44,7 +63,7 @@ pub(super) struct Book<'a> {
     feet: BTreeMap<RodId, Vec<Foot>>,
     /// Whether each card has to say how thick its rod is.
     mixed: bool,
-    units: PaperUnits,
+    settings: &'a SheetSettings,
     width: f64,
 }
 
@@ -55,28 +74,35 @@ pub(super) struct Card {
 }
 
 impl<'a> Book<'a> {
-    pub fn new(frame: &'a Frame, units: PaperUnits, width: f64) -> Self {
+    pub fn new(frame: &'a Frame, settings: &'a SheetSettings, width: f64) -> Self {
         let mut by_rod: BTreeMap<RodId, Vec<Foot>> = BTreeMap::new();
         for foot in feet(frame) {
             by_rod.entry(foot.rod).or_default().push(foot);
         }
-        Self { frame, classes: classes(frame), feet: by_rod, mixed: are_mixed(frame), units, width }
+        Self {
+            frame,
+            classes: classes(frame),
+            feet: by_rod,
+            mixed: are_mixed(frame),
+            settings,
+            width,
+        }
     }
 
     /// The card of a rod.
-    pub fn card(&self, rod: RodId) -> Result<Card, DrawingError> {
+    pub fn card(&self, rod: RodId) -> Result<Card, SheetError> {
         let mut items = Vec::new();
         let marks = marks(self.frame, rod);
         let length = self.frame.rods[rod].axis.length();
         let strip = Strip::new(length, self.frame.rods[rod].diameters, &marks, self.width);
         self.head(&mut items, rod, &strip)?;
         let mut y = HEAD;
-        strip.draw(&mut items, [0.0, y], &marks, self.units)?;
+        strip.draw(&mut items, [0.0, y], &marks, self.settings)?;
         y += strip.height() + 1.2;
         let top = y;
         self.lines(&mut items, y, &marks)?;
         y += LINE * marks.len() as f64;
-        let feet = self.feet_of(rod);
+        let feet = self.feet_of(rod)?;
         if self.width >= FOOT_BESIDE {
             items.text_lines([self.width, top + BODY], BODY, LINE, Anchor::End, &feet);
             y = y.max(top + LINE * feet.len() as f64);
@@ -89,76 +115,87 @@ impl<'a> Book<'a> {
         Ok(Card { items, height: y + 2.0 * BELOW })
     }
 
-    fn head(&self, items: &mut Vec<Item>, rod: RodId, strip: &Strip) -> Result<(), DrawingError> {
+    fn head(&self, items: &mut Vec<Item>, rod: RodId, strip: &Strip) -> Result<(), SheetError> {
         let class = self.classes.of(rod);
         let number = rod.to_string();
         let base = NUMBER * 0.85;
         let mut x = text_width(&number, NUMBER, Weight::Bold)? + 5.0;
         items.text([0.0, base], NUMBER, number).bold();
-        let mut cut = format!("cut {}", self.units.measure(strip.length()));
-        if self.mixed {
-            cut = format!("{cut}, Ø {}", self.units.diameter(self.frame.rods[rod].diameters));
-        }
+        let (settings, format) = (self.settings, self.settings.format());
+        let diameter = match self.mixed {
+            true => format.diameter(self.frame.rods[rod].diameters),
+            false => String::new(),
+        };
+        let cut = settings.say(say::Cut { length: format.measure(strip.length()), diameter })?;
         items.text([x, base], 5.0, cut.as_str()).bold();
         x += text_width(&cut, 5.0, Weight::Bold)? + 5.0;
-        let same = class.rods.len();
-        let others = if same == 1 { "alone".to_owned() } else { format!("1 of {same}") };
-        let class = format!("class {} ({others})", class.name);
+        let class =
+            settings.say(say::Class { name: class.name.clone(), count: class.rods.len() })?;
         x += text_width(&class, BODY, Weight::Regular)? + 3.0;
         items.text([x - 3.0, base], BODY, class).end();
-        let scale = if strip.is_broken() { "strip broken: use the figures" } else { "strip 1:1" };
-        let scale = elide(scale, SMALL, Weight::Regular, self.width - x)?;
+        let scale = match strip.is_broken() {
+            true => settings.say(say::StripBroken {})?,
+            false => settings.say(say::StripFull {})?,
+        };
+        let scale = elide(&scale, SMALL, Weight::Regular, self.width - x)?;
         items.text([self.width, base], SMALL, scale).end();
         Ok(())
     }
 
     /// A line for every mark.
-    fn lines(&self, items: &mut Vec<Item>, top: f64, marks: &[Mark]) -> Result<(), DrawingError> {
-        let units = self.units;
+    fn lines(&self, items: &mut Vec<Item>, top: f64, marks: &[Mark]) -> Result<(), SheetError> {
+        let (settings, format) = (self.settings, self.settings.format());
         // Left ends of words and right ends of figures, mm.
         let [letter, at, side, partner, crossing, clock, ending] =
             [1.0, 22.0, 27.0, 34.0, 80.0, 105.0, 108.0];
         for (i, mark) in marks.iter().enumerate() {
             let y = top + BODY + LINE * i as f64;
             items.text([letter, y], BODY, mark.letter.as_str()).bold();
-            items.text([at, y], BODY, units.length(mark.at)).bold().end();
+            items.text([at, y], BODY, format.length(mark.at)).bold().end();
             items.text([side, y], BODY, mark.side.letter()).bold();
-            let distance = units.length(mark.at_partner);
+            let distance = format.length(mark.at_partner);
             let text = format!("{} {} @ {distance}", mark.partner, mark.partner_letter);
             items.text([partner, y], BODY, text);
-            items.text([crossing, y], BODY, angle(mark.angle)).end();
-            items.text([clock, y], BODY, format!("clock {}", heading(mark.clock))).end();
-            items.text([ending, y], SMALL, word(mark));
+            items.text([crossing, y], BODY, format.angle(mark.angle)).end();
+            let angle = settings.say(say::Clock { angle: format.heading(mark.clock) })?;
+            items.text([clock, y], BODY, angle).end();
+            items.text([ending, y], SMALL, word(mark, settings)?);
         }
         if marks.is_empty() {
-            items.text([letter, top + TABLE], BODY, "no contacts");
+            items.text([letter, top + TABLE], BODY, settings.say(say::NoContacts {})?);
         }
         Ok(())
     }
 
     /// What a rod that stands on the ground needs.
-    fn feet_of(&self, rod: RodId) -> Vec<String> {
+    fn feet_of(&self, rod: RodId) -> Result<Vec<String>, TextError> {
+        let (settings, format) = (self.settings, self.settings.format());
         let feet = self.feet.get(&rod).map_or(&[][..], Vec::as_slice);
         let lines = |foot: &Foot| {
             let end = match foot.end {
                 End::A => "A",
                 End::B => "B",
             };
-            [
-                format!("end {end} stands on the ground"),
-                format!("elevation {}, heading {}", angle(foot.elevation), heading(foot.azimuth)),
-                format!("saw end {end} at {} off square", angle(foot.bevel)),
-            ]
+            let end = end.to_owned();
+            let elevation = format.angle(foot.elevation);
+            let heading = format.heading(foot.azimuth);
+            let angle = format.angle(foot.bevel);
+            Ok([
+                settings.say(say::FootEnd { end: end.clone() })?,
+                settings.say(say::FootAngles { elevation, heading })?,
+                settings.say(say::FootBevel { end, angle })?,
+            ])
         };
-        feet.iter().flat_map(lines).collect()
+        let lines: Vec<[String; 3]> = feet.iter().map(lines).collect::<Result<_, TextError>>()?;
+        Ok(lines.into_iter().flatten().collect())
     }
 }
 /// What becomes of a rod at a mark.
-fn word(mark: &Mark) -> &'static str {
+fn word(mark: &Mark, settings: &SheetSettings) -> Result<String, TextError> {
     match (mark.side, mark.ending) {
-        (Side::Meets(End::A), _) => "meets its end A",
-        (Side::Meets(End::B), _) => "meets its end B",
-        (_, true) => "ends",
-        (_, false) => "passes",
+        (Side::Meets(End::A), _) => settings.say(say::Meets { end: "A".to_owned() }),
+        (Side::Meets(End::B), _) => settings.say(say::Meets { end: "B".to_owned() }),
+        (_, true) => settings.say(say::Ends {}),
+        (_, false) => settings.say(say::Passes {}),
     }
 }

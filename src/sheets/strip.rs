@@ -1,11 +1,19 @@
 //! The strip of a rod card: the rod at full size with its marks, to lay the rod on.
 
-use super::PaperUnits;
 use super::legend::{OVER_TICK, SIGN_HALF, SIGN_HEIGHT, UNDER_TICK, sign};
 use super::page::{SMALL, THIN};
+use super::text::message::messages;
+use super::{SheetError, SheetSettings};
 use crate::drawing::font::text_width;
-use crate::drawing::{Color, Draw, DrawingError, Point, Stroke, Weight};
+use crate::drawing::{Color, Draw, Point, Stroke, Weight};
 use crate::shop::{Mark, Side};
+
+messages! {
+    mod say in "rod-cards.toml" {
+        "measure" => Measure {}
+        "from-here" => FromHere {}
+    }
+}
 
 /// Room left of end A for the triangle and what it says, mm.
 const BEFORE: f64 = 19.0;
@@ -76,15 +84,15 @@ impl Strip {
         out: &mut impl Draw,
         [x, y]: Point,
         marks: &[Mark],
-        units: PaperUnits,
-    ) -> Result<(), DrawingError> {
+        settings: &SheetSettings,
+    ) -> Result<(), SheetError> {
         let top = y + SIGN_HEIGHT + LEADER;
         self.rod(out, [x, top]);
-        self.ends(out, [x, top]);
+        self.ends(out, [x, top], settings)?;
         for above in [true, false] {
             self.marks(out, [x, top], marks, above);
         }
-        self.figures(out, [x, top], marks, units)
+        self.figures(out, [x, top], marks, settings)
     }
 
     /// The outline of the rod, with break signs.
@@ -116,7 +124,12 @@ impl Strip {
     }
 
     /// The triangle at end A, and both letters.
-    fn ends(&self, out: &mut impl Draw, [x, top]: Point) {
+    fn ends(
+        &self,
+        out: &mut impl Draw,
+        [x, top]: Point,
+        settings: &SheetSettings,
+    ) -> Result<(), SheetError> {
         let middle = top + self.thickness / 2.0;
         let tip = x + BEFORE;
         out.polygon(
@@ -125,10 +138,11 @@ impl Strip {
         );
         let right = tip - TRIANGLE - 1.0;
         out.text([right, middle - SMALL * 0.85], 4.0, "A").end().bold();
-        out.text([right, middle + SMALL * 0.55], SMALL, "measure").end();
-        out.text([right, middle + SMALL * 1.65], SMALL, "from here").end();
+        out.text([right, middle + SMALL * 0.55], SMALL, settings.say(say::Measure {})?).end();
+        out.text([right, middle + SMALL * 1.65], SMALL, settings.say(say::FromHere {})?).end();
         let b = x + self.stops[self.stops.len() - 1].1 + 1.5;
         out.text([b, middle], 4.0, "B").bold().vcenter();
+        Ok(())
     }
 
     /// Ticks and signs of the marks on one side: under below the rod, all others above.
@@ -162,11 +176,11 @@ impl Strip {
         out: &mut impl Draw,
         [x, top]: Point,
         marks: &[Mark],
-        units: PaperUnits,
-    ) -> Result<(), DrawingError> {
+        settings: &SheetSettings,
+    ) -> Result<(), SheetError> {
         let y = top - LEADER - SIGN_HEIGHT / 2.0;
         for stops in self.stops.windows(2).filter(|w| self.breaks(w)) {
-            let text = format!("‹ {} ›", units.length(stops[1].0 - stops[0].0));
+            let text = format!("‹ {} ›", settings.format().length(stops[1].0 - stops[0].0));
             let middle = x + (stops[0].1 + stops[1].1) / 2.0;
             let half = text_width(&text, SMALL, Weight::Regular)? / 2.0 + SIGN_HALF + 0.5;
             let clear = |m: &(f64, f64)| (x + m.1 - middle).abs() > half + APART;

@@ -2,13 +2,26 @@
 
 use super::page::{BODY, SMALL, TITLE};
 use super::support_tiles;
-use super::{PaperUnits, Sheet, SheetError, SheetSettings, page};
+use super::text::TextError;
+use super::text::message::messages;
+use super::{Format, Sheet, SheetError, SheetSettings, page};
 use crate::drawing::font::text_width;
-use crate::drawing::{Color, Dash, Draw, Drawing, DrawingError, Item, Placement};
+use crate::drawing::{Color, Dash, Draw, Drawing, Item, Placement};
 use crate::drawing::{Point, Rect, Stroke, Text, Weight};
 use crate::frame::Frame;
 use crate::shop::feet::middle;
 use crate::shop::{Foot, feet};
+
+messages! {
+    mod say in "support-map.toml" {
+        "title" => Title { model: String }
+        "facts" => Facts { scale: String, diameters: String }
+        "no-feet" => NoFeet {}
+        "x-axis" => XAxis {}
+        "y-axis" => YAxis {}
+        "middle" => Middle {}
+    }
+}
 
 /// Room round the outermost feet for arrows and numbers, mm on paper.
 const AROUND: f64 = 25.0;
@@ -47,9 +60,9 @@ pub(super) const NUMBERS: &str = "numbers";
 const TITLE_LAYER: &str = "title";
 
 /// What is said where nothing stands on the ground.
-pub(super) const NO_FEET: &str = "No rod of this frame stands on the ground, so there is no map \
-    of feet. The frame needs a base of your own: rest or tie its border rods on a ring, a wall \
-    or blocks, or hang it up.";
+pub(super) fn no_feet(settings: &SheetSettings) -> Result<String, TextError> {
+    settings.say(say::NoFeet {})
+}
 
 /// The whole map on one sheet, at full size: circles are as wide as the rods. A
 /// footprint too large for one sheet is drawn at a stated smaller scale.
@@ -80,25 +93,27 @@ fn sheet(
 ) -> Result<(Drawing, Point), SheetError> {
     let settings = settings.checked()?;
     let extent = map.extent(n);
-    let title = format!("{}: support map", settings.model);
-    let facts =
-        format!("seen from above · scale 1:{n} · rod Ø {}", settings.units.diameters(frame));
+    let format = settings.format();
+    let title = settings.say(say::Title { model: settings.model.clone() })?;
+    let diameters = format.diameters(frame);
+    let facts = settings.say(say::Facts { scale: format.plain(n), diameters })?;
     let words =
         text_width(&title, TITLE, Weight::Bold)?.max(text_width(&facts, BODY, Weight::Regular)?);
     let words = if map.feet.is_empty() { words.max(NO_FEET_WIDTH) } else { words };
     let width = extent.width().max(words + 20.0).max(BAR + 40.0);
     let mut sheet = Drawing::new(width, extent.height() + ABOVE + BELOW);
     let origin = [width / 2.0 - extent.center()[0], ABOVE - extent.min[1]];
-    let drawn = map.draw(n, &mut Vec::new(), Numbers::All)?;
+    let drawn = map.draw(n, &mut Vec::new(), Numbers::All, &settings)?;
     sheet.place_drawing(&drawn, &Placement::at(origin));
     let top = sheet.layer(TITLE_LAYER);
     top.text([10.0, 10.0], TITLE, title).bold();
     top.text([10.0, 15.5], BODY, facts);
     if map.feet.is_empty() {
-        let lines = crate::drawing::font::wrap(NO_FEET, BODY, Weight::Regular, width - 20.0)?;
+        let lines =
+            crate::drawing::font::wrap(&no_feet(&settings)?, BODY, Weight::Regular, width - 20.0)?;
         top.text_lines([10.0, 24.0], BODY, BODY * 1.3, Default::default(), lines);
     }
-    scale_bar(top, [10.0, ABOVE + extent.height() + 4.0], n, settings.units);
+    scale_bar(top, [10.0, ABOVE + extent.height() + 4.0], n, format);
     Ok((sheet, origin))
 }
 
@@ -114,21 +129,21 @@ pub fn pages(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Sheet>, Shee
     let settings = settings.checked()?;
     let mut leaves = support_tiles::overview(frame, &settings)?;
     leaves.extend(support_tiles::tiles(frame, &settings)?);
-    page::stamp(leaves, &settings.units.diameters(frame), &settings)
+    page::stamp(leaves, &settings.format().diameters(frame), &settings)
 }
 
 /// Height of a scale bar, mm.
 pub(super) const SCALE_BAR_HEIGHT: f64 = 4.0;
 
 /// A bar that is 100 mm long on paper, and what it stands for.
-pub(super) fn scale_bar(out: &mut impl Draw, [x, y]: Point, n: f64, units: PaperUnits) {
+pub(super) fn scale_bar(out: &mut impl Draw, [x, y]: Point, n: f64, format: Format) {
     let pen = Stroke::new(0.3);
     out.line([x, y], [x + BAR, y], pen);
     for end in [x, x + BAR] {
         let half = SCALE_BAR_HEIGHT / 2.0;
         out.line([end, y - half], [end, y + half], pen);
     }
-    out.text([x + BAR + 3.0, y], BODY, units.measure(BAR * n)).vcenter();
+    out.text([x + BAR + 3.0, y], BODY, format.measure(BAR * n)).vcenter();
 }
 
 /// Which feet get their number printed.
@@ -182,7 +197,8 @@ impl FootMap {
         n: f64,
         taken: &mut Vec<Rect>,
         numbers: Numbers,
-    ) -> Result<Drawing, DrawingError> {
+        settings: &SheetSettings,
+    ) -> Result<Drawing, SheetError> {
         let mut map = Drawing::new(1.0, 1.0);
         let at = |f: &Foot| Self::place(f.x, f.y, n);
         let chord = Stroke::new(0.15).color(Color::GREY).dash(Dash::DASH_DOT);
@@ -202,7 +218,7 @@ impl FootMap {
             taken.push(arrow_box(foot, at(foot), radius, small));
         }
         if !self.feet.is_empty() {
-            self.draw_middle(&mut map, n, taken)?;
+            self.draw_middle(&mut map, n, taken, settings)?;
         }
         for foot in &self.feet {
             let size = if small { SMALL } else { NUMBER };
@@ -221,7 +237,8 @@ impl FootMap {
         map: &mut Drawing,
         n: f64,
         taken: &mut Vec<Rect>,
-    ) -> Result<(), DrawingError> {
+        settings: &SheetSettings,
+    ) -> Result<(), SheetError> {
         let [x, y] = Self::place(self.middle[0], self.middle[1], n);
         let length = if n > 1.0 { AXES / 2.0 } else { AXES };
         let cross = if n > 1.0 { MIDDLE / 2.0 } else { MIDDLE };
@@ -234,9 +251,15 @@ impl FootMap {
         lines.arrow([x, y], [x, y - length], 2.5, pen);
         taken.push(Rect::new([x, y - length], [length, length]).inset(-1.0));
         let texts = map.layer(NUMBERS);
-        let zero = texts.text([x + length + 1.0, y], SMALL, "0° (x)").vcenter().clone();
-        let quarter = texts.text([x, y - length - 1.5], SMALL, "90° (y)").middle().clone();
-        let name = texts.text([x, y + cross + SMALL + 0.8], SMALL, "middle").middle().clone();
+        let words = [
+            settings.say(say::XAxis {})?,
+            settings.say(say::YAxis {})?,
+            settings.say(say::Middle {})?,
+        ];
+        let [zero, quarter, name] = words;
+        let zero = texts.text([x + length + 1.0, y], SMALL, zero).vcenter().clone();
+        let quarter = texts.text([x, y - length - 1.5], SMALL, quarter).middle().clone();
+        let name = texts.text([x, y + cross + SMALL + 0.8], SMALL, name).middle().clone();
         for text in [zero, quarter, name] {
             taken.push(text.extent()?);
         }
@@ -287,7 +310,7 @@ fn number(
     size: f64,
     taken: &[Rect],
     numbers: Numbers,
-) -> Result<Option<Text>, DrawingError> {
+) -> Result<Option<Text>, SheetError> {
     let mut first = None;
     for step in STEPS {
         for turn in TURNS {

@@ -4,9 +4,10 @@
 //! marks of two neighbours lie on the same points of the ground: cut along them, or
 //! lay them on each other.
 
-use super::format::{angle, heading};
 use super::page::{BODY, Column, Flow, Leaf, SMALL, THIN, Table};
-use super::support_map::{CHORDS, FootMap, NO_FEET, NUMBERS, Numbers};
+use super::support_map::{CHORDS, FootMap, NUMBERS, Numbers, no_feet};
+use super::text::TextError;
+use super::text::message::messages;
 use super::{SheetError, SheetSettings, page};
 use crate::drawing::{
     Anchor, Color, Draw, Drawing, DrawingError, Item, Placement, Point, Rect, Stroke,
@@ -14,6 +15,32 @@ use crate::drawing::{
 use crate::drawing::{Text, clip};
 use crate::frame::{End, Frame};
 use crate::shop::Foot;
+
+messages! {
+    mod say in "support-map.toml" {
+        "overview" => Overview {}
+        "join" => Join {}
+        "too-large" => TooLarge {}
+        "explained" => Explained { x: String, y: String }
+        "foot" => Foot {}
+        "end" => End {}
+        "x" => X {}
+        "y" => Y {}
+        "radius" => Radius {}
+        "bearing" => Bearing {}
+        "elevation" => Elevation {}
+        "heading" => Heading {}
+        "bevel" => Bevel {}
+        "next" => Next {}
+        "chord" => Chord {}
+        "tile" => Tile { tile: String }
+        "tile-title" => TileTitle { tile: String }
+        "above" => Above { tile: String }
+        "below" => Below { tile: String }
+        "left" => Left { tile: String }
+        "right" => Right { tile: String }
+    }
+}
 
 /// How far neighbouring tiles overlap, mm.
 const OVERLAP: f64 = 10.0;
@@ -32,10 +59,10 @@ const OVERVIEW_SHARE: f64 = 0.5;
 
 /// The overview page (and more, if the table is long).
 pub(super) fn overview(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Leaf>, SheetError> {
-    let mut flow = Flow::new(settings, "support-map", "Support map: overview");
+    let mut flow = Flow::new(settings, "support-map", &settings.say(say::Overview {})?);
     let map = FootMap::new(frame);
     if map.feet.is_empty() {
-        flow.paragraph(NO_FEET)?;
+        flow.paragraph(&no_feet(settings)?)?;
         return Ok(flow.finish(None));
     }
     let tiling = Tiling::new(&map, settings);
@@ -43,10 +70,10 @@ pub(super) fn overview(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Le
         min: [flow.area().min[0], flow.y],
         max: [flow.area().max[0], flow.y + flow.room() * OVERVIEW_SHARE],
     };
-    let height = small_map(flow.page(), &map, tiling.as_ref(), room)?;
+    let height = small_map(flow.page(), &map, tiling.as_ref(), room, settings)?;
     flow.skip(height + 4.0);
-    flow.paragraph(&explained(&map, tiling.as_ref(), settings))?;
-    flow.table(&table(&map, settings))?;
+    flow.paragraph(&explained(&map, tiling.as_ref(), settings)?)?;
+    flow.table(&table(&map, settings)?)?;
     Ok(flow.finish(None))
 }
 
@@ -54,7 +81,7 @@ pub(super) fn overview(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Le
 pub(super) fn tiles(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Leaf>, SheetError> {
     let map = FootMap::new(frame);
     let Some(tiling) = Tiling::new(&map, settings) else { return Ok(Vec::new()) };
-    let full = map.draw(1.0, &mut Vec::new(), Numbers::All)?;
+    let full = map.draw(1.0, &mut Vec::new(), Numbers::All, settings)?;
     let mut leaves = Vec::new();
     for tile in tiling.used(&full) {
         leaves.push(tiling.leaf(tile, &full, &map.feet, settings)?);
@@ -62,26 +89,25 @@ pub(super) fn tiles(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Leaf>
     Ok(leaves)
 }
 
-fn explained(map: &FootMap, tiling: Option<&Tiling>, settings: &SheetSettings) -> String {
-    let units = settings.units;
-    let [x, y] = map.middle.map(|c| units.length(c));
+fn explained(
+    map: &FootMap,
+    tiling: Option<&Tiling>,
+    settings: &SheetSettings,
+) -> Result<String, TextError> {
+    let format = settings.format();
+    let [x, y] = map.middle.map(|c| format.length(c));
     let tiles = match tiling {
-        Some(_) => "Join the tiles of the 1:1 map so that their crop marks meet.",
-        None => "The map is too large for tiles at full size: measure the feet out by the table.",
+        Some(_) => settings.say(say::Join {})?,
+        None => settings.say(say::TooLarge {})?,
     };
-    format!(
-        "{tiles} Arrows show where each rod heads. The middle of the model is at x {x}, y {y}. \
-         Radius and bearing are measured from the middle; bearings and headings run \
-         counter-clockwise from the x axis. The bevel is sawn off a square end so that the rod \
-         stands flat; chord is the straight distance to the next foot round."
-    )
+    Ok(format!("{tiles} {}", settings.say(say::Explained { x, y })?))
 }
 
-fn table(map: &FootMap, settings: &SheetSettings) -> Table {
-    let units = settings.units;
+fn table(map: &FootMap, settings: &SheetSettings) -> Result<Table, TextError> {
+    let format = settings.format();
     let row = |f: &Foot| {
         let (next, chord) = match f.next {
-            Some(next) => (next.rod.to_string(), units.length(next.chord)),
+            Some(next) => (next.rod.to_string(), format.length(next.chord)),
             None => (String::new(), String::new()),
         };
         vec![
@@ -90,31 +116,31 @@ fn table(map: &FootMap, settings: &SheetSettings) -> Table {
                 End::A => "A".to_owned(),
                 End::B => "B".to_owned(),
             },
-            units.length(f.x),
-            units.length(f.y),
-            units.length(f.radius),
-            heading(f.bearing),
-            angle(f.elevation),
-            heading(f.azimuth),
-            angle(f.bevel),
+            format.length(f.x),
+            format.length(f.y),
+            format.length(f.radius),
+            format.heading(f.bearing),
+            format.angle(f.elevation),
+            format.heading(f.azimuth),
+            format.angle(f.bevel),
             next,
             chord,
         ]
     };
     let columns = vec![
-        Column::text("foot"),
-        Column::text("end"),
-        Column::figure("x"),
-        Column::figure("y"),
-        Column::figure("radius"),
-        Column::figure("bearing"),
-        Column::figure("elevation"),
-        Column::figure("heading"),
-        Column::figure("bevel"),
-        Column::text("next"),
-        Column::figure("chord"),
+        Column::text(settings.say(say::Foot {})?),
+        Column::text(settings.say(say::End {})?),
+        Column::figure(settings.say(say::X {})?),
+        Column::figure(settings.say(say::Y {})?),
+        Column::figure(settings.say(say::Radius {})?),
+        Column::figure(settings.say(say::Bearing {})?),
+        Column::figure(settings.say(say::Elevation {})?),
+        Column::figure(settings.say(say::Heading {})?),
+        Column::figure(settings.say(say::Bevel {})?),
+        Column::text(settings.say(say::Next {})?),
+        Column::figure(settings.say(say::Chord {})?),
     ];
-    Table { columns, rows: map.feet.iter().map(row).collect() }
+    Ok(Table { columns, rows: map.feet.iter().map(row).collect() })
 }
 
 /// The whole map in `room`, with the tiles; returns the height it takes.
@@ -123,7 +149,8 @@ fn small_map(
     map: &FootMap,
     tiling: Option<&Tiling>,
     room: Rect,
-) -> Result<f64, DrawingError> {
+    settings: &SheetSettings,
+) -> Result<f64, SheetError> {
     let ratio = |what: Rect, margin: f64| {
         (0..2).map(|i| what.size()[i] / (room.size()[i] - 2.0 * margin)).fold(0.0, f64::max)
     };
@@ -137,7 +164,7 @@ fn small_map(
     let offset = [room.center()[0] - on_paper.center()[0], room.min[1] - on_paper.min[1]];
     let place = Placement::at(offset);
     let used = match tiling {
-        Some(tiling) => tiling.used(&map.draw(1.0, &mut Vec::new(), Numbers::All)?),
+        Some(tiling) => tiling.used(&map.draw(1.0, &mut Vec::new(), Numbers::All, settings)?),
         None => Vec::new(),
     };
     let mut items: Vec<Item> = Vec::new();
@@ -146,7 +173,7 @@ fn small_map(
     }
     // Always in small letters and arrows, even if the scale is 1:1.
     let mut taken = Vec::new();
-    let small = map.draw(n.max(1.0 + f64::EPSILON), &mut taken, Numbers::WhereFree)?;
+    let small = map.draw(n.max(1.0 + f64::EPSILON), &mut taken, Numbers::WhereFree, settings)?;
     items.extend(small.items().cloned());
     if let Some(tiling) = tiling {
         tiling.draw_names(&mut items, n, &used, &taken)?;
@@ -215,7 +242,7 @@ impl Tiling {
         map: &Drawing,
         feet: &[Foot],
         settings: &SheetSettings,
-    ) -> Result<Leaf, DrawingError> {
+    ) -> Result<Leaf, SheetError> {
         let (rect, area) = (self.rect(tile), tile_area(settings));
         let [width, height] = settings.paper.size();
         let mut drawing = Drawing::new(width, height);
@@ -234,29 +261,32 @@ impl Tiling {
             drawing.line([x, y - CROP], [x, y + CROP], THIN);
         }
         let base = area.min[1] - 2.2;
-        drawing.text([area.min[0], base], 5.0, format!("tile {}", name(tile))).bold();
-        drawing.text([area.max[0], base], SMALL, self.neighbors(tile)).end();
-        let title = format!("Support map: tile {}", name(tile));
+        drawing
+            .text([area.min[0], base], 5.0, settings.say(say::Tile { tile: name(tile) })?)
+            .bold();
+        let around = self.neighbors(tile, settings)?;
+        drawing.text([area.max[0], base], SMALL, around).end();
+        let title = settings.say(say::TileTitle { tile: name(tile) })?;
         let stem = format!("support-map-{}", name(tile).to_lowercase());
         Ok(Leaf { stem, title, scale: Some("1:1".to_owned()), drawing })
     }
 
     /// Which tiles lie around.
-    fn neighbors(&self, [c, r]: Place) -> String {
+    fn neighbors(&self, [c, r]: Place, settings: &SheetSettings) -> Result<String, TextError> {
         let mut parts = Vec::new();
         if r > 0 {
-            parts.push(format!("above {}", name([c, r - 1])));
+            parts.push(settings.say(say::Above { tile: name([c, r - 1]) })?);
         }
         if r + 1 < self.count[1] {
-            parts.push(format!("below {}", name([c, r + 1])));
+            parts.push(settings.say(say::Below { tile: name([c, r + 1]) })?);
         }
         if c > 0 {
-            parts.push(format!("left {}", name([c - 1, r])));
+            parts.push(settings.say(say::Left { tile: name([c - 1, r]) })?);
         }
         if c + 1 < self.count[0] {
-            parts.push(format!("right {}", name([c + 1, r])));
+            parts.push(settings.say(say::Right { tile: name([c + 1, r]) })?);
         }
-        parts.join(" · ")
+        Ok(parts.join(" · "))
     }
 
     /// Where a tile lies on the map at 1:n, to the middle of its overlaps.

@@ -13,9 +13,10 @@ static LAID: LazyLock<(Frame, Footprint, Measures)> =
     LazyLock::new(|| fixture::laid_on_sample("igloo", "4.4.4.4", [0.0; 2], 0.3));
 static IGLOO: LazyLock<Frame> = LazyLock::new(|| LAID.0.clone());
 
-fn settings(paper: Paper, units: PaperUnits) -> SheetSettings {
+pub(super) fn settings(paper: Paper, units: PaperUnits) -> SheetSettings {
     let notes = vec!["rodwright build igloo.obj --rod 3mm".to_owned()];
-    SheetSettings { model: "igloo".to_owned(), paper, units, density: 600.0, notes }
+    let texts = Texts::built_in(Language::En).unwrap();
+    SheetSettings { model: "igloo".to_owned(), paper, units, density: 600.0, notes, texts }
 }
 
 fn cut_plan(frame: &Frame) -> CutPlan {
@@ -118,8 +119,9 @@ fn upright_lines(items: &[Item], width: f64) -> Vec<f64> {
 
 #[test]
 fn ticks_of_a_strip_are_as_far_apart_as_the_marks() {
+    let settings = settings(Paper::A4, PaperUnits::Mm);
     for frame in [&*IGLOO, &fixture::circuit(7, 3.0)] {
-        let book = Book::new(frame, PaperUnits::Mm, 190.0);
+        let book = Book::new(frame, &settings, 190.0);
         for rod in frame.rods.ids() {
             let items = book.card(rod).unwrap().items;
             let ticks = upright_lines(&items, legend::OVER_TICK.width);
@@ -145,7 +147,7 @@ fn long_rods_are_broken_but_keep_short_stretches() {
     let strip = strip::Strip::new(400.0, [3.0; 2], &marks, 190.0);
     assert!(strip.is_broken());
     assert!((strip.drawn_length() - (190.0 - 24.0)).abs() < 1e-9);
-    let card = Book::new(&frame, PaperUnits::Mm, 190.0).card(rod).unwrap();
+    let card = Book::new(&frame, &settings(Paper::A4, PaperUnits::Mm), 190.0).card(rod).unwrap();
     let ticks = upright_lines(&card.items, legend::OVER_TICK.width);
     assert!((ticks[1] - ticks[0] - (marks[1].at - marks[0].at)).abs() < 1e-9);
     let says = |part: &str| {
@@ -199,7 +201,8 @@ fn rods_of_other_diameters_are_told_apart_on_every_paper() {
         assert!(said.iter().any(|text| text.contains(&line)), "{line} is not said");
     }
     for (rod, diameter) in [(thick, "Ø 5.0 mm"), (tapered, "Ø 6.0→4.0 mm")] {
-        let card = Book::new(&frame, PaperUnits::Mm, 190.0).card(rod).unwrap();
+        let card =
+            Book::new(&frame, &settings(Paper::A4, PaperUnits::Mm), 190.0).card(rod).unwrap();
         let has = |i: &Item| matches!(i, Item::Text(t) if t.string.contains(diameter));
         assert!(card.items.iter().any(has), "{diameter}");
     }
