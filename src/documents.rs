@@ -5,7 +5,7 @@ use crate::drawing::pdf::{self, DocumentInfo, Page};
 use crate::drawing::{DrawingError, dxf, svg};
 use crate::frame::arrangement::arrangement;
 use crate::pipeline::Model;
-use crate::sheets::{Document, TextError, document_title, notes};
+use crate::sheets::{Document, TextError, document_title, handout, notes};
 use crate::sheets::{
     Sheet, SheetError, SheetSettings, footprint, histogram_pairs, histograms, relaxing_pairs,
 };
@@ -53,6 +53,11 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
     }
     if design.wants(Part::Sheets) {
         add_sheets(design, model, &mut files)?;
+    }
+    if design.wants(Part::Handout) {
+        let settings = sheet_settings(design, model)?;
+        let sheets = handout::pages(frame, &model.plan, &design.tiles.name(), &settings)?;
+        files.add("handout.pdf", bound(sheets, design, Document::Handout)?);
     }
     if design.wants(Part::SupportMap) {
         add_support_map(design, model, &mut files)?;
@@ -156,6 +161,7 @@ fn bound(
     let info = DocumentInfo {
         title: document_title(document, &design.name(), &design.texts)?,
         creator: format!("rodwright {}", env!("CARGO_PKG_VERSION")),
+        language: design.texts.language().to_owned(),
         ..DocumentInfo::default()
     };
     Ok(pdf::render(&pages, &info)?)

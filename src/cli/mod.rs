@@ -11,6 +11,7 @@ mod patterns;
 mod progress;
 mod sample;
 mod summary;
+mod templates;
 mod terminal;
 
 use crate::design::DesignError;
@@ -45,6 +46,8 @@ enum Command {
     Convert(convert::Args),
     /// Write a sample surface
     Sample(sample::Args),
+    /// Write the texts of the papers as files, to be changed for --templates
+    Templates(templates::Args),
     /// Draw the frames of many designs on one page
     Gallery(gallery::Args),
     /// Print a script that completes commands in a shell
@@ -104,6 +107,7 @@ pub fn run() -> ExitCode {
         Command::Inspect(args) => inspect::run(args, &terminal),
         Command::Convert(args) => convert::run(&args, &terminal),
         Command::Sample(args) => sample::run(&args),
+        Command::Templates(args) => templates::run(&args, &terminal),
         Command::Gallery(args) => gallery::run(&args, &terminal),
         Command::Completions(args) => complete::completions(&args, Cli::command()),
         Command::Man => complete::man(Cli::command()),

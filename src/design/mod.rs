@@ -54,6 +54,8 @@ pub enum Part {
     Glb,
     /// sheets.pdf, sheets/*.svg
     Sheets,
+    /// handout.pdf: for a class that builds the model.
+    Handout,
     /// support-map.svg, support-map.pdf, support-map.dxf
     SupportMap,
     /// footprint.svg: the flattened surface on its pattern.
@@ -62,12 +64,13 @@ pub enum Part {
     Pictures,
 }
 
-const ALL_PARTS: [Part; 8] = [
+const ALL_PARTS: [Part; 9] = [
     Part::Structure,
     Part::Csv,
     Part::Cutlist,
     Part::Glb,
     Part::Sheets,
+    Part::Handout,
     Part::SupportMap,
     Part::Footprint,
     Part::Pictures,

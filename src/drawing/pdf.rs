@@ -5,15 +5,17 @@
 //! down to the characters used. The same pages always give the same bytes: there is
 //! no date in the file and its id is computed from its contents.
 //!
-//! printpdf writes the pages; what it has no setter for (print scaling, subset
-//! names, exact widths, the file's id) is set on its document before saving.
+//! printpdf writes the pages; what it has no setter for (print scaling, language, an
+//! outline in chapters, names of pages, subset names, exact widths, the file's id) is set
+//! on its document before saving.
 
 mod content;
+mod outline;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use lopdf::{Dictionary, Document, Object, StringFormat};
-use printpdf::{FontId, LayerInternalId, PageAnnotId, PageAnnotation, ParsedFont, PdfDocument};
+use printpdf::{FontId, LayerInternalId, ParsedFont, PdfDocument};
 use printpdf::{PdfFont, PdfPage, PdfSaveOptions, PdfWarnMsg, Pt, Rect};
 
 use self::content::page_ops;
@@ -31,19 +33,23 @@ pub struct Page {
     pub drawing: Drawing,
     /// Entry in the outline (bookmarks); none for a page that has no entry.
     pub title: Option<String>,
+    /// Entry that this and its neighbours of the same chapter hang below.
+    pub chapter: Option<String>,
+    /// What viewers call the page; its number if it has no label.
+    pub label: Option<String>,
 }
 
 impl Page {
     /// A page with an entry in the outline.
     pub fn titled(drawing: Drawing, title: impl Into<String>) -> Self {
-        Self { drawing, title: Some(title.into()) }
+        Self { title: Some(title.into()), ..drawing.into() }
     }
 }
 
 /// A page without an entry in the outline.
 impl From<Drawing> for Page {
     fn from(drawing: Drawing) -> Self {
-        Self { drawing, title: None }
+        Self { drawing, title: None, chapter: None, label: None }
     }
 }
 
@@ -58,6 +64,8 @@ pub struct DocumentInfo {
     pub subject: String,
     /// The program that made the pages.
     pub creator: String,
+    /// The language of the texts, as BCP 47 names it: `en`, `de-AT`.
+    pub language: String,
 }
 
 /// All pages as the bytes of a PDF file.
@@ -81,22 +89,13 @@ pub fn render(pages: &[Page], info: &DocumentInfo) -> Result<Vec<u8>, DrawingErr
         pdf.resources.fonts.map.insert(font.id(), font.embedded()?);
     }
     pdf.resources.layers.map = layers.described();
-    pdf.bookmarks.map = outline(pages);
-    save(&pdf, &fonts, info)
+    save(&pdf, pages, &fonts, info)
 }
 
 /// mm to points, to a thousandth of a point: 0.35 µm, and short in the file.
 fn pt(mm: f64) -> Pt {
     // Adding zero turns the minus zero that rounding may leave into zero.
     Pt((mm * PT_PER_MM * 1e3).round() as f32 / 1e3 + 0.0)
-}
-
-fn outline(pages: &[Page]) -> BTreeMap<PageAnnotId, PageAnnotation> {
-    let entry = |(i, page): (usize, &Page)| {
-        let name = page.title.clone()?;
-        Some((PageAnnotId(format!("page{i}")), PageAnnotation { name, page: i + 1 }))
-    };
-    pages.iter().enumerate().filter_map(entry).collect()
 }
 
 /// The fonts of the document, each cut down to what is used of it.
@@ -202,7 +201,12 @@ impl Layers {
     }
 }
 
-fn save(pdf: &PdfDocument, fonts: &Fonts, info: &DocumentInfo) -> Result<Vec<u8>, DrawingError> {
+fn save(
+    pdf: &PdfDocument,
+    pages: &[Page],
+    fonts: &Fonts,
+    info: &DocumentInfo,
+) -> Result<Vec<u8>, DrawingError> {
     // The fonts are cut already.
     let options = PdfSaveOptions { subset_fonts: false, ..PdfSaveOptions::default() };
     let mut warnings: Vec<PdfWarnMsg> = Vec::new();
@@ -214,7 +218,9 @@ fn save(pdf: &PdfDocument, fonts: &Fonts, info: &DocumentInfo) -> Result<Vec<u8>
 
     // Layers came with 1.5, /PrintScaling with 1.6.
     file.version = "1.6".to_owned();
-    set_catalog(&mut file, !pdf.bookmarks.map.is_empty()).map_err(say)?;
+    let outline = outline::add(&mut file, pages).map_err(say)?;
+    outline::label(&mut file, pages).map_err(say)?;
+    set_catalog(&mut file, outline, &info.language).map_err(say)?;
     set_info(&mut file, info).map_err(say)?;
     for font in &fonts.subsets {
         set_font(&mut file, font)?;
@@ -235,12 +241,15 @@ fn save(pdf: &PdfDocument, fonts: &Fonts, info: &DocumentInfo) -> Result<Vec<u8>
     write(Some(id))
 }
 
-fn set_catalog(file: &mut Document, outline: bool) -> lopdf::Result<()> {
+fn set_catalog(file: &mut Document, outline: bool, language: &str) -> lopdf::Result<()> {
     let catalog = file.catalog_mut()?;
     let mut preferences = Dictionary::new();
     preferences.set("PrintScaling", "None");
     preferences.set("DisplayDocTitle", true);
     catalog.set("ViewerPreferences", preferences);
+    if !language.is_empty() {
+        catalog.set("Lang", lopdf::text_string(language));
+    }
     catalog.set("PageLayout", "SinglePage");
     catalog.set("PageMode", if outline { "UseOutlines" } else { "UseNone" });
     Ok(())

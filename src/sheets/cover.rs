@@ -2,6 +2,7 @@
 
 use super::legend::{CALIBRATION, RULER_WIDTH, calibration_box, ruler, ruler_down, sign};
 use super::page::{BODY, Flow, HEADING, Leaf, SMALL};
+use super::text::TextError;
 use super::text::message::messages;
 use super::view::View;
 use super::{SheetError, SheetSettings};
@@ -281,19 +282,8 @@ fn shopping(
 ) -> Result<(), SheetError> {
     let format = settings.format();
     block.heading(&settings.say(say::ToBuy {})?);
-    for bars in plan.shopping() {
-        let line = say::Bars {
-            count: bars.count,
-            length: format.measure(bars.length),
-            diameter: format.diameter(bars.diameters),
-            price: bars.price.map_or_else(String::new, |p| format.fixed(p, 2)),
-        };
-        block.text(&settings.say(line)?, width)?;
-    }
-    for bars in plan.taken() {
-        let (length, diameter) = (format.measure(bars.length), format.diameter(bars.diameters));
-        let line = say::Offcuts { count: bars.count, length, diameter };
-        block.text(&settings.say(line)?, width)?;
+    for line in bought(plan, settings)? {
+        block.text(&line, width)?;
     }
     if let Some(cost) = plan.cost() {
         block.text(&settings.say(say::Cost { cost: format.fixed(cost, 2) })?, width)?;
@@ -303,6 +293,25 @@ fn shopping(
         false => settings.say(say::RodInAll { total: format.total(plan.used()) })?,
     };
     block.text(&total, width)
+}
+
+/// The bars to buy, and the offcuts to take, a line each.
+pub(super) fn bought(plan: &CutPlan, settings: &SheetSettings) -> Result<Vec<String>, TextError> {
+    let format = settings.format();
+    let mut lines = Vec::new();
+    for bars in plan.shopping() {
+        lines.push(settings.say(say::Bars {
+            count: bars.count,
+            length: format.measure(bars.length),
+            diameter: format.diameter(bars.diameters),
+            price: bars.price.map_or_else(String::new, |p| format.fixed(p, 2)),
+        })?);
+    }
+    for bars in plan.taken() {
+        let (length, diameter) = (format.measure(bars.length), format.diameter(bars.diameters));
+        lines.push(settings.say(say::Offcuts { count: bars.count, length, diameter })?);
+    }
+    Ok(lines)
 }
 
 /// The length classes, if they are few.
@@ -330,7 +339,7 @@ fn lengths(
 }
 
 /// Width, depth and height over the rods' surfaces, from the ground up, mm.
-fn size(frame: &Frame) -> [f64; 3] {
+pub(super) fn size(frame: &Frame) -> [f64; 3] {
     let [lo, hi] = frame.bounds();
     if frame.rods.is_empty() {
         return [0.0; 3];

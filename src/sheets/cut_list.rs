@@ -133,7 +133,7 @@ impl Saw<'_> {
             kerf: format.measure(plan.kerf),
             trim: if trim { format.measure(plan.trim) } else { String::new() },
             total: format.total(plan.used()),
-            weight: weight(plan.weight(settings.density), format),
+            weight: format.weight(plan.weight(settings.density)),
             density: format.plain(settings.density),
             waste: format.percent(plan.waste()),
         })?)?;
@@ -268,16 +268,6 @@ impl Saw<'_> {
         page.text([area.max[0], y + BODY + 0.5], BODY, left).end();
         Ok(())
     }
-}
-
-/// A weight in kg to three figures or so.
-fn weight(kg: f64, format: Format) -> String {
-    let decimals = match kg {
-        ..1.0 => 3,
-        ..10.0 => 2,
-        _ => 1,
-    };
-    format.fixed(kg, decimals)
 }
 
 /// One line below the picture of a bar: a cell for each piece.

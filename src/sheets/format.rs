@@ -124,6 +124,16 @@ impl Format {
         self.local(format!("{} %", fixed(share * 100.0, 1)))
     }
 
+    /// A weight in kg to three figures or so.
+    pub fn weight(self, kg: f64) -> String {
+        let decimals = match kg {
+            ..1.0 => 3,
+            ..10.0 => 2,
+            _ => 1,
+        };
+        self.fixed(kg, decimals)
+    }
+
     /// With so many decimals; never `-0.0`.
     pub fn fixed(self, x: f64, decimals: usize) -> String {
         self.local(fixed(x, decimals))

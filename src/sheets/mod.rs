@@ -13,6 +13,7 @@ mod cut_list;
 mod figures;
 pub mod footprint;
 mod format;
+pub mod handout;
 mod histograms;
 mod legend;
 mod line_picture;
@@ -40,7 +41,7 @@ pub use paper::{Paper, PaperError};
 pub use pattern_picture::{PictureError, pattern_picture};
 pub use pattern_sheet::{PatternEntry, pattern_sheet};
 pub use pictures::pictures;
-pub use text::{Language, TextError, Texts};
+pub use text::{Language, TextError, Texts, built_in_files};
 
 use crate::drawing::DrawingError;
 use crate::frame::Frame;

@@ -15,6 +15,8 @@ messages! {
         "facts" => Facts { diameters: String, scale: String, inches: bool }
         "sheets" => Sheets { model: String }
         "support-map" => SupportMap { model: String }
+        "handout" => Handout { model: String }
+        "handout-title" => HandoutTitle {}
     }
 }
 
@@ -55,6 +57,8 @@ pub enum Document {
     Sheets,
     /// The map of the feet.
     SupportMap,
+    /// The handout for a class.
+    Handout,
 }
 
 /// The title of a document of a model.
@@ -66,6 +70,7 @@ pub fn document_title(document: Document, model: &str, texts: &Texts) -> Result<
     match document {
         Document::Sheets => texts.say(say::Sheets { model }),
         Document::SupportMap => texts.say(say::SupportMap { model }),
+        Document::Handout => texts.say(say::Handout { model }),
     }
 }
 
@@ -85,6 +90,18 @@ pub(super) struct Leaf {
     /// Printed in the title block where the page has one scale.
     pub scale: Option<String>,
     pub drawing: Drawing,
+    pub listing: Listing,
+}
+
+/// Where viewers list a page.
+#[derive(Default)]
+pub(super) struct Listing {
+    /// The entry that it hangs below with its neighbours.
+    pub chapter: Option<String>,
+    /// Its own entry; the title if there is no other.
+    pub name: Option<String>,
+    /// What it is called in place of its number.
+    pub label: Option<String>,
 }
 
 /// The part of a page below the title block.
@@ -121,7 +138,9 @@ pub(super) fn stamp(
     for (i, mut leaf) in leaves.into_iter().enumerate() {
         title_block(&mut leaf, i + 1, count, diameters, settings)?;
         let stem = format!("{:0digits$}-{}", i + 1, leaf.stem);
-        sheets.push(Sheet { stem, page: Page::titled(leaf.drawing, leaf.title) });
+        let Listing { chapter, name, label } = leaf.listing;
+        let title = Some(name.unwrap_or(leaf.title));
+        sheets.push(Sheet { stem, page: Page { drawing: leaf.drawing, title, chapter, label } });
     }
     Ok(sheets)
 }
@@ -232,6 +251,11 @@ impl<'a> Flow<'a> {
         self.y = self.area().min[1];
     }
 
+    /// How many pages there are so far.
+    pub fn count(&self) -> usize {
+        self.pages.len()
+    }
+
     /// Turns the page if `height` mm do not fit on it any more.
     pub fn need(&mut self, height: f64) {
         if height > self.room() && self.y > self.area().min[1] {
@@ -320,14 +344,16 @@ impl<'a> Flow<'a> {
     /// The pages, for [`stamp`].
     pub fn finish(self, scale: Option<&str>) -> Vec<Leaf> {
         let Self { stem, title, pages, .. } = self;
-        let several = pages.len() > 1;
+        let (several, chapter) = (pages.len() > 1, title.clone());
         let leaf = |(i, drawing)| {
             let (stem, title) = if several {
                 (format!("{stem}-{}", i + 1), format!("{title}, {}", i + 1))
             } else {
                 (stem.to_owned(), title.clone())
             };
-            Leaf { stem, title, scale: scale.map(str::to_owned), drawing }
+            let listing =
+                Listing { chapter: several.then(|| chapter.clone()), ..Listing::default() };
+            Leaf { stem, title, scale: scale.map(str::to_owned), drawing, listing }
         };
         pages.into_iter().enumerate().map(leaf).collect()
     }

@@ -16,6 +16,7 @@ use std::collections::BTreeMap;
 messages! {
     mod say in "rod-cards.toml" {
         "title" => Title {}
+        "range" => Range { first: String, last: String }
         "cut" => Cut { length: String, diameter: String }
         "class" => Class { name: String, count: usize }
         "strip-broken" => StripBroken {}
@@ -46,14 +47,27 @@ const FOOT_BESIDE: f64 = 165.0;
 pub(super) fn rod_cards(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Leaf>, SheetError> {
     let mut flow = Flow::new(settings, "rod-cards", &settings.say(say::Title {})?);
     let book = Book::new(frame, settings, flow.area().width());
+    // The first and the last rod of each page.
+    let mut ranges: Vec<[RodId; 2]> = Vec::new();
     for rod in frame.rods.ids() {
         let card = book.card(rod)?;
         flow.need(card.height);
+        ranges.resize(flow.count(), [rod; 2]);
+        if let Some(range) = ranges.last_mut() {
+            range[1] = rod;
+        }
         let at = [flow.area().min[0], flow.y];
         flow.page().place(&card.items, &Placement::at(at));
         flow.skip(card.height);
     }
-    Ok(flow.finish(None))
+    let mut leaves = flow.finish(None);
+    for (leaf, range) in leaves.iter_mut().zip(ranges) {
+        let [first, last] = range.map(|rod| rod.to_string());
+        if leaf.listing.chapter.is_some() {
+            leaf.listing.name = Some(settings.say(say::Range { first, last })?);
+        }
+    }
+    Ok(leaves)
 }
 
 /// What all cards share.

@@ -4,7 +4,7 @@
 //! marks of two neighbours lie on the same points of the ground: cut along them, or
 //! lay them on each other.
 
-use super::page::{BODY, Column, Flow, Leaf, SMALL, THIN, Table};
+use super::page::{BODY, Column, Flow, Leaf, Listing, SMALL, THIN, Table};
 use super::support_map::{CHORDS, FootMap, NUMBERS, Numbers, no_feet};
 use super::text::TextError;
 use super::text::message::messages;
@@ -33,6 +33,7 @@ messages! {
         "bevel" => Bevel {}
         "next" => Next {}
         "chord" => Chord {}
+        "tiles" => Tiles {}
         "tile" => Tile { tile: String }
         "tile-title" => TileTitle { tile: String }
         "above" => Above { tile: String }
@@ -268,7 +269,12 @@ impl Tiling {
         drawing.text([area.max[0], base], SMALL, around).end();
         let title = settings.say(say::TileTitle { tile: name(tile) })?;
         let stem = format!("support-map-{}", name(tile).to_lowercase());
-        Ok(Leaf { stem, title, scale: Some("1:1".to_owned()), drawing })
+        let listing = Listing {
+            chapter: Some(settings.say(say::Tiles {})?),
+            name: Some(settings.say(say::Tile { tile: name(tile) })?),
+            label: Some(name(tile)),
+        };
+        Ok(Leaf { stem, title, scale: Some("1:1".to_owned()), drawing, listing })
     }
 
     /// Which tiles lie around.

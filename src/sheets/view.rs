@@ -29,6 +29,9 @@ const OUTLINE: f64 = 0.25;
 const LAP: f64 = 0.1;
 /// How light the farthest rods are, 0 black to 255 white.
 const FARTHEST: f64 = 150.0;
+/// Sine of the slope below which a place of the surface counts as level: which way is uphill
+/// would be rounding.
+const LEVEL: f64 = 1e-6;
 /// Scales that read well, and ten times, a hundred times … as small.
 const ROUND_SCALES: [f64; 10] = [1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
 
@@ -43,6 +46,21 @@ pub(super) struct View {
     fading: bool,
 }
 
+/// How a view lies on paper.
+pub(super) struct Layout {
+    /// Of the scale 1:n.
+    n: f64,
+    from: Point,
+    to: Point,
+}
+
+impl Layout {
+    /// Where a point of the view lies on paper.
+    pub fn place(&self, p: Point) -> Point {
+        [0, 1].map(|i| self.to[i] + (p[i] - self.from[i]) / self.n)
+    }
+}
+
 impl View {
     /// From above; x to the right, y up.
     pub fn plan() -> Self {
@@ -54,6 +72,14 @@ impl View {
         let toward = Vector3::new(1.0, -1.0, 1.0).normalize();
         let right = Vector3::new(1.0, 1.0, 0.0).normalize();
         Self { right, up: toward.cross(&right), toward, fading: true }
+    }
+
+    /// From outside, straight onto a place of the surface with this outward normal; what is
+    /// uphill is up, and on top y is.
+    pub fn onto(normal: &Vector3) -> Self {
+        let right = Vector3::z().cross(normal).try_normalize(LEVEL).unwrap_or(Vector3::x());
+        let toward = (normal - right * normal.dot(&right)).normalize();
+        Self { right, up: toward.cross(&right), toward, fading: false }
     }
 
     /// Where a point appears, mm, y down.
@@ -73,14 +99,18 @@ impl View {
         bounds.unwrap_or(Rect::new([0.0, 0.0], [1.0, 1.0])).inset(-frame.thickest() / 2.0)
     }
 
+    /// How the frame lies in `room`: at the largest round scale that fits, in the middle.
+    pub fn layout(&self, frame: &Frame, room: Rect) -> Layout {
+        let extent = self.extent(frame);
+        let ratio = (0..2).map(|i| extent.size()[i] / room.size()[i]).fold(0.0, f64::max);
+        Layout { n: round_scale(ratio), from: extent.center(), to: room.center() }
+    }
+
     /// Draws the frame into `room` at the largest round scale that fits, and returns
     /// n of that scale 1:n.
     pub fn draw(&self, frame: &Frame, room: Rect, out: &mut impl Draw) -> f64 {
-        let extent = self.extent(frame);
-        let ratio = (0..2).map(|i| extent.size()[i] / room.size()[i]).fold(0.0, f64::max);
-        let n = round_scale(ratio);
-        let (from, to) = (extent.center(), room.center());
-        let place = |p: Point| [to[0] + (p[0] - from[0]) / n, to[1] + (p[1] - from[1]) / n];
+        let layout = self.layout(frame, room);
+        let (n, place) = (layout.n, |p: Point| layout.place(p));
 
         let ends = frame.rods.iter().flat_map(|rod| rod.diameters);
         let outlined = ends.fold(f64::INFINITY, f64::min) / n > OUTLINED;

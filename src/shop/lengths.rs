@@ -15,6 +15,14 @@ pub struct Stick {
     pub diameters: [f64; 2],
 }
 
+impl Stick {
+    /// Volume, mm³; of a stick that tapers, that of a cone without its tip.
+    pub fn volume(&self) -> f64 {
+        let [a, b] = self.diameters;
+        std::f64::consts::PI / 12.0 * (a * a + a * b + b * b) * self.length
+    }
+}
+
 /// Which diameters come first in lists: thin before thick.
 pub fn thinner([a, b]: &[f64; 2], [c, d]: &[f64; 2]) -> Ordering {
     a.max(*b).total_cmp(&c.max(*d)).then(a.total_cmp(c)).then(b.total_cmp(d))

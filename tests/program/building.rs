@@ -87,6 +87,7 @@ fn a_run_writes_every_file_of_the_folder_and_the_same_bytes_twice() {
         "cutlist.csv",
         "model.glb",
         "sheets.pdf",
+        "handout.pdf",
         "support-map.svg",
         "support-map.pdf",
         "support-map.dxf",

@@ -7,6 +7,7 @@ mod converting;
 mod footprint;
 mod forming;
 mod inspecting;
+mod papers;
 mod patterns;
 mod refusals;
 mod relaxing;

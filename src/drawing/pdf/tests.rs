@@ -7,7 +7,8 @@ use super::super::{Anchor, Color, Dash, Draw, Drawing, Stroke};
 use super::*;
 
 fn info() -> DocumentInfo {
-    DocumentInfo { title: "Hall, 41°".to_owned(), ..DocumentInfo::default() }
+    let language = "de".to_owned();
+    DocumentInfo { title: "Hall, 41°".to_owned(), language, ..DocumentInfo::default() }
 }
 
 fn read(pages: &[Page]) -> Document {
@@ -197,4 +198,58 @@ fn empty_text_and_empty_shapes_are_left_out() {
     d.area(vec![vec![]], Color::BLACK);
     let ops = operations(&read(&[d.into()]), 1);
     assert!(all(&ops, "m").is_empty() && all(&ops, "Tm").is_empty());
+}
+
+/// Titles of the entries below an entry, those below them in brackets, and their pages.
+fn listed(file: &Document, parent: &Dictionary) -> String {
+    let mut shown = Vec::new();
+    let mut next = parent.get(b"First").and_then(Object::as_reference).ok();
+    while let Some(id) = next {
+        let entry = file.get_dictionary(id).expect("an entry");
+        let title = lopdf::decode_text_string(entry.get(b"Title").expect("a title")).expect("text");
+        let to = entry.get(b"Dest").and_then(Object::as_array).expect("a place");
+        let to = to[0].as_reference().expect("a page");
+        let page = file.page_iter().position(|p| p == to).expect("a page of the file") + 1;
+        let below = listed(file, entry);
+        let below = if below.is_empty() { below } else { format!(" ({below})") };
+        shown.push(format!("{title} {page}{below}"));
+        next = entry.get(b"Next").and_then(Object::as_reference).ok();
+    }
+    shown.join(", ")
+}
+
+#[test]
+fn chapters_hold_their_pages_and_pages_have_labels_and_a_language() {
+    let page = |title: &str, chapter: Option<&str>, label: Option<&str>| Page {
+        chapter: chapter.map(str::to_owned),
+        label: label.map(str::to_owned),
+        ..Page::titled(Drawing::new(100.0, 100.0), title)
+    };
+    let cards = Some("Rod cards");
+    let pages = [
+        page("Cover", None, None),
+        page("R001", cards, None),
+        page("R011", cards, None),
+        page("Größe", None, None),
+        page("A1", Some("Tiles"), Some("A1")),
+        Drawing::new(100.0, 100.0).into(),
+    ];
+    let file = read(&pages);
+    let catalog = file.catalog().expect("a catalog");
+    let outline = catalog.get(b"Outlines").and_then(Object::as_reference).expect("an outline");
+    let outline = file.get_dictionary(outline).expect("a dictionary");
+    let expected = "Cover 1, Rod cards 2 (R001 2, R011 3), Größe 4, Tiles 5 (A1 5)";
+    assert_eq!(listed(&file, outline), expected);
+    // Chapters are closed, so that only the entries of the first level count.
+    assert_eq!(outline.get(b"Count").and_then(Object::as_i64).expect("a number"), 4);
+    let language = lopdf::decode_text_string(catalog.get(b"Lang").expect("one")).expect("text");
+    assert_eq!(language, "de");
+    let labels = catalog.get(b"PageLabels").and_then(Object::as_dict).expect("labels");
+    let labels = labels.get(b"Nums").and_then(Object::as_array).expect("a list");
+    let from: Vec<i64> = labels.iter().step_by(2).map(|n| n.as_i64().expect("a page")).collect();
+    assert_eq!(from, [0, 4, 5]);
+    let label = |i: usize| labels[2 * i + 1].as_dict().expect("a label");
+    assert_eq!(name(label(0), "S"), "D");
+    assert_eq!(lopdf::decode_text_string(label(1).get(b"P").expect("one")).expect("text"), "A1");
+    assert_eq!(label(2).get(b"St").and_then(Object::as_i64).expect("a number"), 6);
 }

@@ -5,6 +5,7 @@ use super::file::{Sourced, Texted};
 use super::message::{Entry, Kind};
 use crate::drawing::Weight;
 use crate::drawing::font::text_width;
+use crate::sheets::handout::markdown::{Unprintable, blocks};
 use minijinja::{Environment, ErrorKind, Template, Value};
 use std::path::PathBuf;
 
@@ -30,6 +31,26 @@ pub(super) fn message(
     known_values(environment, &template, entry, text)?;
     for values in trials(entry) {
         template.render(Value::from_pairs(values)).map_err(|e| fault(&e))?;
+    }
+    Ok(())
+}
+
+/// Refuses a handout with something in it that is not printed.
+pub(super) fn markdown(
+    environment: &Environment<'_>,
+    name: &str,
+    entry: &Entry,
+    text: &Sourced,
+) -> Result<(), TextError> {
+    for values in trials(entry) {
+        let fault = |e: &minijinja::Error| text.fault(e.line().unwrap_or(1), problem(e));
+        let template = environment.get_template(name).map_err(|e| fault(&e))?;
+        let tried = template.render(Value::from_pairs(values)).map_err(|e| fault(&e))?;
+        blocks(&tried).map_err(|Unprintable { near, problem }| {
+            let holds = |line: &str| line.contains(&near);
+            let line = text.source.lines().position(holds).unwrap_or(0) + 1;
+            text.fault(line, format!("`{near}`: {problem}"))
+        })?;
     }
     Ok(())
 }
@@ -94,6 +115,7 @@ fn trials(entry: &Entry) -> impl Iterator<Item = Vec<(&'static str, Value)>> {
                 Kind::Words => Value::from(WORDS[trial / COUNTS.len()]),
                 Kind::Count => Value::from(COUNTS[trial % COUNTS.len()]),
                 Kind::Flag => Value::from(trial % 2 == 0),
+                Kind::List => Value::from(vec!["1"; COUNTS[trial % COUNTS.len()]]),
             };
             (name, value)
         };

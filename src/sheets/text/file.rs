@@ -1,7 +1,7 @@
 //! Files of texts: TOML, a key and a template on each line or over several.
 
 use super::TextError;
-use super::language::{FILES, Language, MessageFile};
+use super::language::{FILES, Handout, Language, MessageFile};
 use super::message::Entry;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -88,6 +88,19 @@ pub(super) fn messages(
         Ok((entry, texts.remove(entry.key).ok_or_else(missing)?))
     };
     file.all().map(found).collect()
+}
+
+/// The template of the handout.
+pub(super) fn handout(language: Language, own: Option<&Texted>) -> Sourced {
+    let (file, source) = match own {
+        Some(own) => (own.path.clone(), own.text.clone()),
+        None => {
+            let path = format!("{}/{}", language.name(), Handout::NAME);
+            (PathBuf::from(path), Handout::built_in(language).to_owned())
+        }
+    };
+    let last_line = source.lines().count().max(1);
+    Sourced { file, first_line: 1, last_line, source }
 }
 
 /// The messages that stand in a file.

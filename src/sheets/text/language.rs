@@ -2,8 +2,8 @@
 
 use super::message::Entry;
 use crate::sheets::{
-    cover, cut_list, figures, footprint, histograms, legend, notes, page, rod_cards, strip,
-    support_map, support_tiles,
+    cover, cut_list, figures, footprint, handout, histograms, legend, notes, page, rod_cards,
+    strip, support_map, support_tiles,
 };
 use serde::{Deserialize, Serialize};
 
@@ -85,3 +85,27 @@ pub(super) const FILES: &[MessageFile] = &[
     file!("rod-cards.toml", rod_cards::say::ENTRIES, strip::say::ENTRIES),
     file!("support-map.toml", support_map::say::ENTRIES, support_tiles::say::ENTRIES),
 ];
+
+/// The handout: one template of CommonMark.
+pub(super) struct Handout;
+
+impl Handout {
+    /// The name of its file.
+    pub const NAME: &'static str = "handout.md";
+    /// Its key and values.
+    pub const ENTRY: &'static Entry = &handout::say::ENTRIES[0];
+
+    /// The text that the program brings.
+    pub fn built_in(language: Language) -> &'static str {
+        match language {
+            Language::En => include_str!("../../../templates/papers/en/handout.md"),
+            Language::De => include_str!("../../../templates/papers/de/handout.md"),
+        }
+    }
+}
+
+/// All files that the program brings in a language: name and text.
+pub fn built_in_files(language: Language) -> Vec<(&'static str, &'static str)> {
+    let messages = FILES.iter().map(|file| (file.name, file.built_in(language)));
+    messages.chain([(Handout::NAME, Handout::built_in(language))]).collect()
+}

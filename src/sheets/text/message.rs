@@ -26,6 +26,8 @@ pub(in crate::sheets) enum Kind {
     Count,
     /// Whether something is so.
     Flag,
+    /// Lines of words, none or some.
+    List,
 }
 
 /// A type that values have.
@@ -40,6 +42,10 @@ impl OfKind for String {
 
 impl OfKind for usize {
     const KIND: Kind = Kind::Count;
+}
+
+impl OfKind for Vec<String> {
+    const KIND: Kind = Kind::List;
 }
 
 impl OfKind for bool {
@@ -71,6 +77,7 @@ macro_rules! messages {
 
             $(
                 #[doc = concat!("`", $key, "` of ", $file, ".")]
+                #[derive(Default)]
                 pub struct $name { $(pub $value: $kind),* }
 
                 impl Message for $name {

@@ -18,10 +18,10 @@ pub(super) mod message;
 mod tests;
 
 pub use error::TextError;
-pub use language::Language;
+pub use language::{Language, built_in_files};
 
 use file::Texted;
-use language::FILES;
+use language::{FILES, Handout};
 use message::Message;
 use minijinja::{Environment, UndefinedBehavior, Value};
 use std::collections::BTreeMap;
@@ -71,6 +71,11 @@ impl Texts {
                 sources.insert(name, text.source);
             }
         }
+        let text = file::handout(language, own.get(Handout::NAME));
+        let name = template_name(Handout::NAME, Handout::ENTRY.key);
+        check::message(&mut environment, &name, Handout::ENTRY, &text)?;
+        check::markdown(&environment, &name, Handout::ENTRY, &text)?;
+        sources.insert(name, text.source);
         let mut loaded = Loaded { environment, sources, language: String::new(), decimal: '.' };
         loaded.language = loaded.say(super::page::say::Language {})?;
         loaded.decimal = loaded.decimal(own.get("page.toml"))?;
@@ -80,6 +85,11 @@ impl Texts {
     /// Puts a message into words.
     pub(super) fn say<M: Message>(&self, message: M) -> Result<String, TextError> {
         self.0.say(message)
+    }
+
+    /// Puts a message into words, its lines as they are.
+    pub(super) fn text<M: Message>(&self, message: M) -> Result<String, TextError> {
+        self.0.text(message)
     }
 
     /// The language that the texts are written in, as BCP 47 names it: `en`, `de-AT`.
@@ -95,6 +105,10 @@ impl Texts {
 
 impl Loaded {
     fn say<M: Message>(&self, message: M) -> Result<String, TextError> {
+        Ok(one_line(&self.text(message)?))
+    }
+
+    fn text<M: Message>(&self, message: M) -> Result<String, TextError> {
         let failed = |e: minijinja::Error| TextError::Render {
             file: M::FILE,
             key: M::KEY,
@@ -102,8 +116,7 @@ impl Loaded {
         };
         let template =
             self.environment.get_template(&template_name(M::FILE, M::KEY)).map_err(failed)?;
-        let text = template.render(Value::from_pairs(message.values())).map_err(failed)?;
-        Ok(one_line(&text))
+        template.render(Value::from_pairs(message.values())).map_err(failed)
     }
 
     /// The decimal sign, if the text of that name is one character.
@@ -119,7 +132,7 @@ impl Loaded {
 
 /// The names of all files of texts.
 fn names() -> impl Iterator<Item = &'static str> {
-    FILES.iter().map(|file| file.name)
+    FILES.iter().map(|file| file.name).chain([Handout::NAME])
 }
 
 /// What all templates share: no value is taken for nothing when it is not there.
