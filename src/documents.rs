@@ -5,6 +5,7 @@ use crate::drawing::pdf::{self, DocumentInfo, Page};
 use crate::drawing::{DrawingError, dxf, svg};
 use crate::frame::arrangement::arrangement;
 use crate::pipeline::Model;
+use crate::sheets::labels::labels;
 use crate::sheets::{Document, TextError, document_title, handout, notes};
 use crate::sheets::{
     Sheet, SheetError, SheetSettings, footprint, histogram_pairs, histograms, relaxing_pairs,
@@ -53,6 +54,10 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
     }
     if design.wants(Part::Sheets) {
         add_sheets(design, model, &mut files)?;
+    }
+    if design.wants(Part::Labels) {
+        let sheets = labels(frame, design.labels, &sheet_settings(design, model)?)?;
+        add_pages("labels", sheets, (design, Document::Labels), &mut files)?;
     }
     if design.wants(Part::Handout) {
         let settings = sheet_settings(design, model)?;
@@ -115,10 +120,20 @@ fn add_sheets(design: &Design, model: &Model, files: &mut Files) -> Result<(), D
     let plane = model.footprint.as_ref();
     let settings = sheet_settings(design, model)?;
     let sheets = sheets(&model.formed.frame, &model.measures, plane, &model.plan, &settings)?;
+    add_pages("sheets", sheets, (design, Document::Sheets), files)
+}
+
+/// Sheets as one PDF file, and each as SVG in a folder of the same name.
+fn add_pages(
+    name: &str,
+    sheets: Vec<Sheet>,
+    (design, what): (&Design, Document),
+    files: &mut Files,
+) -> Result<(), DocumentError> {
     for sheet in &sheets {
-        files.add(format!("sheets/{}.svg", sheet.stem), svg::render(&sheet.page.drawing)?);
+        files.add(format!("{name}/{}.svg", sheet.stem), svg::render(&sheet.page.drawing)?);
     }
-    files.add("sheets.pdf", bound(sheets, design, Document::Sheets)?);
+    files.add(format!("{name}.pdf"), bound(sheets, design, what)?);
     Ok(())
 }
 

@@ -10,11 +10,12 @@ use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
 #[command(
-    after_help = "Surfaces go to all of these formats, structures, with a cylinder for each \
-                        rod, to glb, obj, stl and stl-ascii, and to dxf with the axis of each rod \
-                        as a line, on a layer for each class of lengths. Files are in mm with z \
-                        up, glTF in metres with y up. stl, glb and gltf hold seven digits, dxf \
-                        six decimals, the others all digits."
+    after_help = "Surfaces go to all formats that hold geometry. Structures go to all: with a \
+                  body for each rod, cut level where it stands on the ground; to dxf with the \
+                  axis of each rod as a line, on a layer for each class of lengths; to json as \
+                  structure.json, and to csv, contacts-csv and supports-csv as the tables of a \
+                  folder. Files are in mm with z up, glTF in metres with y up. stl, glb and gltf \
+                  hold seven digits, dxf six decimals, tables three, the others all digits."
 )]
 pub struct Args {
     /// A surface file, a folder written by rodwright, or its structure.json
@@ -42,13 +43,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> Result<(), Failure> {
     let bytes = match Input::read(&args.input)? {
         Input::Structure(structure) => {
             args.preparation.refuse(&args.input)?;
-            let file = structure_file(&structure, format).map_err(Failure::input)?;
-            file.ok_or_else(|| {
-                Failure::usage(format!(
-                    "structures are not written as {format}, only as {}",
-                    list(Format::FOR_STRUCTURES)
-                ))
-            })?
+            structure_file(&structure, format).map_err(Failure::input)?
         }
         Input::Surface(reading) => {
             let prepared = args.preparation.apply(*reading)?;
@@ -56,7 +51,13 @@ pub fn run(args: &Args, terminal: &Terminal) -> Result<(), Failure> {
                 prepared.notes.iter().for_each(|note| terminal.note(note));
             }
             rounding(&prepared.mesh, format).iter().for_each(|w| terminal.warning(w));
-            surface_file(&prepared.mesh, format).map_err(Failure::input)?
+            let file = surface_file(&prepared.mesh, format).map_err(Failure::input)?;
+            file.ok_or_else(|| {
+                Failure::usage(format!(
+                    "surfaces are not written as {format}, only as {}",
+                    list(Format::all().filter(|format| format.is_for_surfaces()))
+                ))
+            })?
         }
     };
     if args.out == Path::new("-") {

@@ -26,6 +26,10 @@ impl Design {
         if let Some(folder) = &self.given.templates {
             file.set("templates", folder.to_string_lossy().into_owned());
         }
+        file.set("labels", choice(self.labels.medium));
+        if let Some(start) = self.given.label_start {
+            file.set("label_start", start as i64);
+        }
         if let Some(measured) = &self.measured {
             file.set("as_built", measured.given.to_string_lossy().into_owned());
         }

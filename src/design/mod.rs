@@ -27,6 +27,7 @@ use crate::frame::share::Share;
 use crate::frame::sizes::SizeTable;
 use crate::frame::tolerance::Tolerance;
 use crate::pattern::{Pattern, PatternError, ShapeError};
+use crate::sheets::labels::LabelSettings;
 use crate::sheets::{Language, Paper, PaperUnits, TextError, Texts};
 use crate::shop::Stock;
 use crate::surface::component::Component;
@@ -54,6 +55,8 @@ pub enum Part {
     Glb,
     /// sheets.pdf, sheets/*.svg
     Sheets,
+    /// labels.pdf, labels/*.svg
+    Labels,
     /// handout.pdf: for a class that builds the model.
     Handout,
     /// support-map.svg, support-map.pdf, support-map.dxf
@@ -64,12 +67,13 @@ pub enum Part {
     Pictures,
 }
 
-const ALL_PARTS: [Part; 9] = [
+const ALL_PARTS: [Part; 10] = [
     Part::Structure,
     Part::Csv,
     Part::Cutlist,
     Part::Glb,
     Part::Sheets,
+    Part::Labels,
     Part::Handout,
     Part::SupportMap,
     Part::Footprint,
@@ -178,6 +182,8 @@ pub struct Design {
     pub language: Language,
     /// What is said on paper.
     pub texts: Texts,
+    /// What rod labels are printed on, and from which label on.
+    pub labels: LabelSettings,
     /// What was measured on sticks, if the frame is to be solved again with it.
     pub measured: Option<MeasuredTable>,
     /// How exact marks and sticks are, if it is to be tried what that does.

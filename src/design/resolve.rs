@@ -6,6 +6,7 @@ use crate::frame::share::Share;
 use crate::frame::tolerance::Tolerance;
 use crate::pattern::{Pattern, Shape, library};
 use crate::sheets::Texts;
+use crate::sheets::labels::LabelSettings;
 use crate::shop::{Offer, Stock};
 use crate::tiling::conway::Notation;
 use crate::units::{Angle, Length};
@@ -80,6 +81,7 @@ impl Settings {
                 None => Texts::built_in(language)?,
                 Some(own) => Texts::with_folder(language, &beside(folders.templates, own))?,
             },
+            labels: self.labels()?,
             measured: self.measured(folders.as_built)?,
             tolerance: self.tolerance()?,
             seed: self.seed.unwrap_or(DEFAULT_SEED),
@@ -102,6 +104,22 @@ impl Settings {
             trim: not_negative("trim", self.trim)?.unwrap_or(0.0),
             keep: positive("keep", self.keep)?,
         })
+    }
+
+    /// What rod labels are printed on, and from which label on.
+    fn labels(&self) -> Result<LabelSettings, DesignError> {
+        let medium = self.labels.unwrap_or_default();
+        let Some(start) = self.label_start else { return Ok(LabelSettings { medium, used: 0 }) };
+        let Some(grid) = medium.grid() else {
+            let why = "strips are cut from plain paper. It is for sheets of labels, as in --labels \
+                       l7160";
+            return Err(DesignError::Idle { key: "label_start", why });
+        };
+        if !(1..=grid.labels()).contains(&start) {
+            let problem = format!("a sheet has the labels 1 to {}", grid.labels());
+            return Err(setting("label_start", start, problem));
+        }
+        Ok(LabelSettings { medium, used: start - 1 })
     }
 
     fn density(&self) -> Result<f64, DesignError> {

@@ -6,6 +6,7 @@ use crate::chart::Method;
 use crate::frame::close::Way;
 use crate::frame::layer::Layering;
 use crate::frame::relax::Relax;
+use crate::sheets::labels::LabelMedium;
 use crate::sheets::{Language, Paper, PaperUnits};
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
@@ -123,7 +124,8 @@ pub struct Settings {
     #[arg(long, value_name = "LENGTH")]
     pub kerf: Option<Length>,
 
-    /// What is sawn off either end of a bar before it is used, cut and all [default: 0mm]
+    /// What is sawn off either end of a bar before it is used, cut and all; of an offcut, off
+    /// the end that is not sawn yet [default: 0mm]
     #[arg(long, value_name = "LENGTH")]
     pub trim: Option<Length>,
 
@@ -159,6 +161,16 @@ pub struct Settings {
     /// `rodwright templates` writes, text by text
     #[arg(long, value_name = "FOLDER")]
     pub templates: Option<PathBuf>,
+
+    /// What rod labels are printed on: sheets of labels of the size they are sold in, or strips
+    /// cut from the paper [default: strips]
+    #[arg(long, value_name = "SHEET", value_enum, ignore_case = true)]
+    pub labels: Option<LabelMedium>,
+
+    /// First free label of the first sheet, counted along the rows from 1, where labels of it
+    /// are used up already [default: 1]
+    #[arg(long, value_name = "N")]
+    pub label_start: Option<usize>,
 
     /// Solve the frame again with what was measured on the sticks: a CSV file with the columns
     /// rod, mate or contact, mark, diameter (README, "Sticks as they are"). Rods in it are sawn:
@@ -235,6 +247,9 @@ impl Settings {
             units: self.units.or(other.units),
             language: self.language.or(other.language),
             templates: self.templates.or(other.templates),
+            // A half-used sheet is one of the labels that it was named for.
+            label_start: self.label_start.or(other.label_start.filter(|_| self.labels.is_none())),
+            labels: self.labels.or(other.labels),
             as_built: self.as_built.or(other.as_built),
             tolerance: self.tolerance.or(other.tolerance),
             seed: self.seed.or(other.seed),

@@ -136,6 +136,11 @@ fn join_ends(runs: &mut Vec<Vec<Point>>, closed: bool) {
     }
 }
 
+/// Whether a straight line has a part in `rect`.
+pub fn crosses([a, b]: [Point; 2], rect: Rect) -> bool {
+    clip_segment(a, b, rect).is_some()
+}
+
 /// The part of the line from `a` to `b` inside `rect` as parameters 0 to 1.
 /// `None` if it has no length.
 fn clip_segment(a: Point, b: Point, rect: Rect) -> Option<(f64, f64)> {

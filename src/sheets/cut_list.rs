@@ -24,7 +24,7 @@ messages! {
         "nothing" => Nothing {}
         "summary" => Summary {
             pieces: usize, bars: usize, list: String, cuts: usize, kerf: String, trim: String,
-            total: String, weight: String, density: String, waste: String,
+            sawn_offcuts: bool, total: String, weight: String, density: String, waste: String,
         }
         "kept" => Kept { list: String }
         "stops" => Stops {}
@@ -130,8 +130,9 @@ impl Saw<'_> {
             bars: plan.bars.len(),
             list: self.bars()?,
             cuts: plan.cuts(),
-            kerf: format.measure(plan.kerf),
-            trim: if trim { format.measure(plan.trim) } else { String::new() },
+            kerf: format.width(plan.kerf),
+            trim: if trim { format.width(plan.trim) } else { String::new() },
+            sawn_offcuts: trim && !plan.taken().is_empty(),
             total: format.total(plan.used()),
             weight: format.weight(plan.weight(settings.density)),
             density: format.plain(settings.density),
@@ -270,11 +271,25 @@ impl Saw<'_> {
     }
 }
 
+/// How many lines come before those of the bars: pieces and stops.
+const HEAD_ROWS: usize = 2;
+
 /// One line below the picture of a bar: a cell for each piece.
 struct Row {
     name: String,
     weight: Weight,
     cells: Vec<String>,
+}
+
+/// A line of cells from one piece on, each `width` mm wide.
+fn line(flow: &mut Flow, row: &Row, from: usize, count: usize, width: f64) {
+    let (x, y) = (flow.area().min[0], flow.y + TABLE);
+    flow.page().text([x, y], SMALL, row.name.as_str());
+    for (k, text) in row.cells.iter().skip(from).take(count).enumerate() {
+        let right = x + NAMES + width * (k + 1) as f64 - 2.0;
+        flow.page().text([right, y], TABLE, text.as_str()).end().weight(row.weight);
+    }
+    flow.skip(LINE);
 }
 
 /// The lines below the picture, broken where there are more pieces than fit.
@@ -289,14 +304,12 @@ fn table(flow: &mut Flow, rows: &[Row], pieces: usize) -> Result<(), SheetError>
     for from in (0..pieces).step_by(per_line) {
         flow.need(3.0 * LINE);
         for row in rows {
-            flow.need(LINE);
-            let (x, y) = (flow.area().min[0], flow.y + TABLE);
-            flow.page().text([x, y], SMALL, row.name.as_str());
-            for (k, text) in row.cells.iter().skip(from).take(per_line).enumerate() {
-                let right = x + NAMES + cell * (k + 1) as f64 - 2.0;
-                flow.page().text([right, y], TABLE, text.as_str()).end().weight(row.weight);
+            if LINE > flow.room() {
+                flow.turn_page();
+                // What the rods of a bar are, and where to stop, stands on every page.
+                rows.iter().take(HEAD_ROWS).for_each(|head| line(flow, head, from, per_line, cell));
             }
-            flow.skip(LINE);
+            line(flow, row, from, per_line, cell);
         }
         flow.skip(1.0);
     }

@@ -17,14 +17,26 @@ pub enum PaperUnits {
     #[serde(rename = "in")]
     #[value(name = "in")]
     Inch,
+    /// Inches and sixteenths, as on a tape measure.
+    #[serde(rename = "in/16")]
+    #[value(name = "in/16")]
+    Sixteenths,
+    /// Inches and thirty-seconds.
+    #[serde(rename = "in/32")]
+    #[value(name = "in/32")]
+    ThirtySeconds,
 }
+
+/// What is off a fraction of an inch by less than this is printed as the fraction where
+/// rounding would mislead, mm: sticks and saws vary by more.
+const SAME_FRACTION: f64 = 0.02;
 
 impl PaperUnits {
     /// `mm` or `in`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Mm => "mm",
-            Self::Inch => "in",
+            Self::Inch | Self::Sixteenths | Self::ThirtySeconds => "in",
         }
     }
 
@@ -33,7 +45,25 @@ impl PaperUnits {
         match self {
             Self::Mm => fixed(mm, 1),
             Self::Inch => fixed(mm / MM_PER_INCH, 2),
+            Self::Sixteenths => fraction(mm / MM_PER_INCH, 16),
+            Self::ThirtySeconds => fraction(mm / MM_PER_INCH, 32),
         }
+    }
+
+    /// A small width with its unit, such as that of a saw cut: as a fraction of an inch only
+    /// if it is one.
+    pub fn width(self, mm: f64) -> String {
+        format!("{} {}", self.exact(mm), self.name())
+    }
+
+    fn exact(self, mm: f64) -> String {
+        let parts = match self {
+            Self::Mm | Self::Inch => return self.length(mm),
+            Self::Sixteenths => 16.0,
+            Self::ThirtySeconds => 32.0,
+        };
+        let fraction = (mm / MM_PER_INCH * parts).round() / parts * MM_PER_INCH;
+        if (mm - fraction).abs() < SAME_FRACTION { self.length(mm) } else { Self::Inch.length(mm) }
     }
 
     /// A length with its unit.
@@ -44,20 +74,20 @@ impl PaperUnits {
     /// The diameter of a stick, given at end A and at end B, with its unit: `3.0 mm`, or
     /// `6.0→4.0 mm` of one that tapers.
     pub fn diameter(self, [a, b]: [f64; 2]) -> String {
-        if a == b { self.measure(a) } else { format!("{}→{}", self.length(a), self.measure(b)) }
+        if a == b { self.width(a) } else { format!("{}→{}", self.exact(a), self.width(b)) }
     }
 
     /// The diameters of all rods of a frame; of many only the thinnest and the thickest.
     pub fn diameters(self, frame: &Frame) -> String {
         match &diameters(frame)[..] {
-            [] => self.measure(frame.diameter),
+            [] => self.width(frame.diameter),
             few if few.len() <= FEW_DIAMETERS => {
                 few.iter().map(|&(ends, _)| self.diameter(ends)).collect::<Vec<_>>().join(", ")
             }
             many => {
                 let all = || many.iter().flat_map(|(ends, _)| *ends);
                 let least = all().fold(f64::INFINITY, f64::min);
-                format!("{}–{}", self.length(least), self.measure(all().fold(least, f64::max)))
+                format!("{}–{}", self.exact(least), self.width(all().fold(least, f64::max)))
             }
         }
     }
@@ -66,7 +96,7 @@ impl PaperUnits {
     pub fn total(self, mm: f64) -> String {
         match self {
             Self::Mm => format!("{} m", fixed(mm / 1000.0, 2)),
-            Self::Inch => format!("{} ft", fixed(mm / (12.0 * MM_PER_INCH), 1)),
+            _ => format!("{} ft", fixed(mm / (12.0 * MM_PER_INCH), 1)),
         }
     }
 }
@@ -92,6 +122,11 @@ impl Format {
     /// A length with its unit.
     pub fn measure(self, mm: f64) -> String {
         self.local(self.units.measure(mm))
+    }
+
+    /// A small width with its unit, as [`PaperUnits::width`].
+    pub fn width(self, mm: f64) -> String {
+        self.local(self.units.width(mm))
     }
 
     /// The diameter of a stick, as [`PaperUnits::diameter`].
@@ -171,6 +206,22 @@ pub(super) fn counted(n: usize, noun: &str) -> String {
     format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
+/// A number in whole parts of one, shortened: `4 13/16`, `-1/4`, `7`.
+fn fraction(x: f64, parts: u32) -> String {
+    let all = (x.abs() * f64::from(parts)).round();
+    let (whole, mut rest, mut parts) =
+        ((all / f64::from(parts)).floor(), all % f64::from(parts), parts);
+    while rest > 0.0 && rest % 2.0 == 0.0 {
+        (rest, parts) = (rest / 2.0, parts / 2);
+    }
+    let sign = if x < 0.0 && all > 0.0 { "-" } else { "" };
+    match (whole > 0.0, rest > 0.0) {
+        (_, false) => format!("{sign}{whole}"),
+        (false, true) => format!("{sign}{rest}/{parts}"),
+        (true, true) => format!("{sign}{whole} {rest}/{parts}"),
+    }
+}
+
 /// With so many decimals; never `-0.0`.
 pub(super) fn fixed(x: f64, decimals: usize) -> String {
     let text = format!("{x:.decimals$}");
@@ -184,6 +235,7 @@ pub(super) fn fixed(x: f64, decimals: usize) -> String {
 mod tests {
     use super::*;
     use crate::ids::Id;
+    use proptest::prelude::*;
 
     #[test]
     fn lengths_in_both_units() {
@@ -195,6 +247,50 @@ mod tests {
         assert_eq!(PaperUnits::Mm.length(-0.06), "-0.1");
         assert_eq!(PaperUnits::Mm.total(12_345.0), "12.35 m");
         assert_eq!(PaperUnits::Inch.total(3048.0), "10.0 ft");
+    }
+
+    #[test]
+    fn inches_in_fractions_are_shortened_and_rounded_to_the_nearest() {
+        let [coarse, fine] = [PaperUnits::Sixteenths, PaperUnits::ThirtySeconds];
+        for (inches, sixteenths, thirty_seconds) in [
+            (0.0, "0", "0"),
+            (4.0, "4", "4"),
+            (4.5, "4 1/2", "4 1/2"),
+            (0.25, "1/4", "1/4"),
+            (-0.75, "-3/4", "-3/4"),
+            (4.41, "4 7/16", "4 13/32"),
+            (4.99, "5", "5"),
+            (-0.01, "0", "0"),
+            (11.0 + 31.0 / 32.0, "12", "11 31/32"),
+        ] {
+            assert_eq!(coarse.length(inches * MM_PER_INCH), sixteenths);
+            assert_eq!(fine.length(inches * MM_PER_INCH), thirty_seconds);
+        }
+        assert_eq!(coarse.measure(101.6), "4 in");
+        // A stick of 3 mm is none of 1/8 in.
+        assert_eq!([3.0, 3.175, 1.0].map(|mm| coarse.width(mm)), ["0.12 in", "1/8 in", "0.04 in"]);
+        assert_eq!(coarse.diameter([6.35, 5.0]), "1/4→0.20 in");
+    }
+
+    proptest! {
+        #[test]
+        fn fractions_are_off_by_half_a_part_at_most(mm in -5000.0..5000.0f64) {
+            let read = |text: &str| {
+                let (sign, text) = match text.strip_prefix('-') {
+                    Some(rest) => (-1.0, rest),
+                    None => (1.0, text),
+                };
+                let part = |part: &str| match part.split_once('/') {
+                    Some((a, b)) => a.parse::<f64>().unwrap() / b.parse::<f64>().unwrap(),
+                    None => part.parse().unwrap(),
+                };
+                sign * text.split(' ').map(part).sum::<f64>() * MM_PER_INCH
+            };
+            for (units, parts) in [(PaperUnits::Sixteenths, 16.0), (PaperUnits::ThirtySeconds, 32.0)] {
+                let off = (read(&units.length(mm)) - mm).abs();
+                prop_assert!(off <= MM_PER_INCH / parts / 2.0 + 1e-9);
+            }
+        }
     }
 
     #[test]

@@ -87,7 +87,7 @@ fn ruler_items(room: f64, units: PaperUnits) -> Vec<Item> {
     // The steps of a figure, and how many small steps it has.
     let (figure, parts) = match units {
         PaperUnits::Mm => (10.0, 10),
-        PaperUnits::Inch => (MM_PER_INCH, 8),
+        _ => (MM_PER_INCH, 8),
     };
     let figures = (room.min(RULER) / figure).floor() as usize;
     let mut items = Vec::new();

@@ -1,8 +1,9 @@
 //! The papers of the workshop: pages made of drawings.
 //!
-//! [`sheets`] gives the pages of the workshop document: cover, figures, cut list with sawing
-//! plan, rod cards and the table of feet. [`histograms`] shows some of the figures. [`support_map`] gives the map of the feet at
-//! full size, in one piece and tiled over pages, [`footprint`] the surface laid flat.
+//! [`sheets`] gives the pages of the workshop document: cover, figures, parts, cut list with
+//! sawing plan, rod cards and the table of feet. [`histograms`] shows some of the figures. [`support_map`] gives the map of the feet at
+//! full size, in one piece and tiled over pages, [`footprint`] the surface laid flat, [`labels`]
+//! a label for each rod.
 //! [`pattern_picture`], [`pattern_sheet`] and [`contact_sheet`] show what there is to choose
 //! from. Nothing here writes files: pages are rendered by [`drawing::pdf`](crate::drawing::pdf) and [`drawing::svg`](crate::drawing::svg).
 
@@ -15,11 +16,13 @@ pub mod footprint;
 mod format;
 pub mod handout;
 mod histograms;
+pub mod labels;
 mod legend;
 mod line_picture;
 pub mod notes;
 mod page;
 mod paper;
+mod parts;
 mod pattern_picture;
 mod pattern_sheet;
 mod pictures;
@@ -107,6 +110,7 @@ pub fn sheets(
     let settings = settings.checked()?;
     let mut leaves = cover::cover(frame, plan, &settings)?;
     leaves.extend(figures::page(measures, &settings)?);
+    leaves.extend(parts::parts(frame, &settings)?);
     if let Some(plane) = plane {
         leaves.extend(footprint::page(plane, &settings)?);
     }

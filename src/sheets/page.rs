@@ -15,6 +15,7 @@ messages! {
         "facts" => Facts { diameters: String, scale: String, inches: bool }
         "sheets" => Sheets { model: String }
         "support-map" => SupportMap { model: String }
+        "labels" => Labels { model: String }
         "handout" => Handout { model: String }
         "handout-title" => HandoutTitle {}
     }
@@ -57,6 +58,8 @@ pub enum Document {
     Sheets,
     /// The map of the feet.
     SupportMap,
+    /// The labels of the rods.
+    Labels,
     /// The handout for a class.
     Handout,
 }
@@ -70,6 +73,7 @@ pub fn document_title(document: Document, model: &str, texts: &Texts) -> Result<
     match document {
         Document::Sheets => texts.say(say::Sheets { model }),
         Document::SupportMap => texts.say(say::SupportMap { model }),
+        Document::Labels => texts.say(say::Labels { model }),
         Document::Handout => texts.say(say::Handout { model }),
     }
 }

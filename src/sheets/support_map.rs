@@ -4,13 +4,14 @@ use super::page::{BODY, SMALL, TITLE};
 use super::support_tiles;
 use super::text::TextError;
 use super::text::message::messages;
-use super::{Format, Sheet, SheetError, SheetSettings, page};
+use super::{Format, PaperUnits, Sheet, SheetError, SheetSettings, page};
 use crate::drawing::font::text_width;
-use crate::drawing::{Color, Dash, Draw, Drawing, Item, Placement};
+use crate::drawing::{Color, Dash, Draw, Drawing, Placement, crosses};
 use crate::drawing::{Point, Rect, Stroke, Text, Weight};
 use crate::frame::Frame;
 use crate::shop::feet::middle;
 use crate::shop::{Foot, feet};
+use crate::units::MM_PER_INCH;
 
 messages! {
     mod say in "support-map.toml" {
@@ -31,8 +32,9 @@ const LONGEST_SIDE: f64 = 4800.0;
 const ABOVE: f64 = 20.0;
 /// Room for the scale bar below the map, mm.
 const BELOW: f64 = 15.0;
-/// Length of the scale bar, mm on paper.
+/// Lengths of the scale bar, mm on paper: 100 mm, or 4 in.
 const BAR: f64 = 100.0;
+const BAR_INCH: f64 = 4.0 * MM_PER_INCH;
 /// How far the cross of a foot sticks out of its circle, mm.
 const CROSS: f64 = 3.0;
 /// Font size of the number of a foot, mm.
@@ -103,7 +105,7 @@ fn sheet(
     let width = extent.width().max(words + 20.0).max(BAR + 40.0);
     let mut sheet = Drawing::new(width, extent.height() + ABOVE + BELOW);
     let origin = [width / 2.0 - extent.center()[0], ABOVE - extent.min[1]];
-    let drawn = map.draw(n, &mut Vec::new(), Numbers::All, &settings)?;
+    let drawn = map.draw(n, &mut Taken::default(), Numbers::All, &settings)?;
     sheet.place_drawing(&drawn, &Placement::at(origin));
     let top = sheet.layer(TITLE_LAYER);
     top.text([10.0, 10.0], TITLE, title).bold();
@@ -135,15 +137,19 @@ pub fn pages(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Sheet>, Shee
 /// Height of a scale bar, mm.
 pub(super) const SCALE_BAR_HEIGHT: f64 = 4.0;
 
-/// A bar that is 100 mm long on paper, and what it stands for.
+/// A bar that is 100 mm or 4 in long on paper, and what it stands for.
 pub(super) fn scale_bar(out: &mut impl Draw, [x, y]: Point, n: f64, format: Format) {
     let pen = Stroke::new(0.3);
-    out.line([x, y], [x + BAR, y], pen);
-    for end in [x, x + BAR] {
+    let bar = match format.units {
+        PaperUnits::Mm => BAR,
+        _ => BAR_INCH,
+    };
+    out.line([x, y], [x + bar, y], pen);
+    for end in [x, x + bar] {
         let half = SCALE_BAR_HEIGHT / 2.0;
         out.line([end, y - half], [end, y + half], pen);
     }
-    out.text([x + BAR + 3.0, y], BODY, format.measure(BAR * n)).vcenter();
+    out.text([x + bar + 3.0, y], BODY, format.measure(bar * n)).vcenter();
 }
 
 /// Which feet get their number printed.
@@ -153,6 +159,25 @@ pub(super) enum Numbers {
     All,
     /// Those whose number finds room.
     WhereFree,
+}
+
+/// What numbers keep clear of, on paper.
+#[derive(Default)]
+pub(super) struct Taken {
+    /// Places that nothing else may be on.
+    pub places: Vec<Rect>,
+    /// Lines that are crossed only where there is no other room.
+    pub lines: Vec<[Point; 2]>,
+}
+
+impl Taken {
+    fn holds(&self, place: &Rect) -> bool {
+        self.places.iter().any(|taken| taken.overlaps(place))
+    }
+
+    fn is_crossed(&self, place: &Rect) -> bool {
+        self.lines.iter().any(|&line| crosses(line, place.inset(-BESIDE)))
+    }
 }
 
 /// The feet and what their map is drawn from.
@@ -190,12 +215,12 @@ impl FootMap {
         Rect::around(feet.chain([middle])).unwrap_or(Rect::new(middle, [0.0; 2]))
     }
 
-    /// The map at 1:n in paper coordinates. `taken` are places that numbers keep clear
-    /// of; those of the numbers are added.
+    /// The map at 1:n in paper coordinates. `taken` is what numbers keep clear of; what the
+    /// map takes is added.
     pub fn draw(
         &self,
         n: f64,
-        taken: &mut Vec<Rect>,
+        taken: &mut Taken,
         numbers: Numbers,
         settings: &SheetSettings,
     ) -> Result<Drawing, SheetError> {
@@ -206,7 +231,9 @@ impl FootMap {
         for (i, foot) in self.feet.iter().enumerate() {
             // With two feet both chords are the same.
             if let Some(next) = foot.next.filter(|next| self.feet.len() > 2 || next.index > i) {
-                guides.line(at(foot), at(&self.feet[next.index]), chord);
+                let ends = [at(foot), at(&self.feet[next.index])];
+                guides.line(ends[0], ends[1], chord);
+                taken.lines.push(ends);
             }
         }
         let radius = |foot: &Foot| foot.diameter / 2.0 / n;
@@ -214,17 +241,17 @@ impl FootMap {
         for foot in &self.feet {
             let radius = radius(foot);
             draw_foot(&mut map, foot, at(foot), radius, small);
-            taken.push(Rect::new(at(foot), [0.0; 2]).inset(-reach(radius, small)));
-            taken.push(arrow_box(foot, at(foot), radius, small));
+            taken.places.push(Rect::new(at(foot), [0.0; 2]).inset(-reach(radius, small)));
+            taken.places.push(arrow_box(foot, at(foot), radius, small));
         }
         if !self.feet.is_empty() {
-            self.draw_middle(&mut map, n, taken, settings)?;
+            self.draw_middle(&mut map, n, &mut taken.places, settings)?;
         }
         for foot in &self.feet {
             let size = if small { SMALL } else { NUMBER };
             let radius = reach(radius(foot), small);
             if let Some(text) = number(foot, at(foot), radius, size, taken, numbers)? {
-                taken.push(text.extent()?);
+                taken.places.push(text.extent()?);
                 map.layer(NUMBERS).push(text);
             }
         }
@@ -301,35 +328,57 @@ fn arrow_box(foot: &Foot, at: Point, radius: f64, small: bool) -> Rect {
 const TURNS: [f64; 8] = [0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0, 4.0];
 /// How far out a number may be pushed, mm.
 const STEPS: [f64; 4] = [0.0, 5.0, 10.0, 15.0];
+/// How many of these steps a number goes rather than lie on a line.
+const STEPS_OFF_LINES: usize = 2;
+/// Least distance of a number from a line, mm.
+const BESIDE: f64 = 0.4;
 
 /// The number of a foot beside its circle: behind the rod if there is room.
 fn number(
     foot: &Foot,
-    [x, y]: Point,
+    at: Point,
     radius: f64,
     size: f64,
-    taken: &[Rect],
+    taken: &Taken,
     numbers: Numbers,
 ) -> Result<Option<Text>, SheetError> {
-    let mut first = None;
-    for step in STEPS {
-        for turn in TURNS {
-            let angle = foot.azimuth + std::f64::consts::PI * (1.0 + turn / 4.0);
-            let (sin, cos) = angle.sin_cos();
-            let mut items: Vec<Item> = Vec::new();
-            let text = items.text([0.0, 0.0], size, foot.rod.to_string()).middle().vcenter();
-            let half = text.extent()?.size().map(|s| s / 2.0);
-            let reach = radius + 0.6 + step + cos.abs() * half[0] + sin.abs() * half[1];
-            text.at = [text.at[0] + x + cos * reach, text.at[1] + y - sin * reach];
-            let extent = text.extent()?;
-            if !taken.iter().any(|t| t.overlaps(&extent)) {
-                return Ok(Some(text.clone()));
+    let steps = match numbers {
+        Numbers::All => &STEPS[..],
+        Numbers::WhereFree => &STEPS[..1],
+    };
+    let off_lines = &steps[..steps.len().min(STEPS_OFF_LINES)];
+    for (steps, off_lines) in [(off_lines, true), (steps, false)] {
+        for step in steps {
+            for turn in TURNS {
+                let text = number_at(foot, at, radius + step, turn, size)?;
+                let extent = text.extent()?;
+                let is_taken = taken.holds(&extent) || (off_lines && taken.is_crossed(&extent));
+                if !is_taken {
+                    return Ok(Some(text));
+                }
             }
-            first.get_or_insert(text.clone());
-        }
-        if numbers == Numbers::WhereFree {
-            return Ok(None);
         }
     }
-    Ok(first)
+    Ok(match numbers {
+        Numbers::All => Some(number_at(foot, at, radius, 0.0, size)?),
+        Numbers::WhereFree => None,
+    })
+}
+
+/// The number of a foot, `reach` from its centre and turned by eighths from behind the rod.
+fn number_at(
+    foot: &Foot,
+    [x, y]: Point,
+    reach: f64,
+    turn: f64,
+    size: f64,
+) -> Result<Text, SheetError> {
+    let angle = foot.azimuth + std::f64::consts::PI * (1.0 + turn / 4.0);
+    let (sin, cos) = angle.sin_cos();
+    let mut text = Text::new([0.0, 0.0], size, foot.rod.to_string());
+    text.middle().vcenter();
+    let half = text.extent()?.size().map(|s| s / 2.0);
+    let reach = reach + 0.6 + cos.abs() * half[0] + sin.abs() * half[1];
+    text.at = [text.at[0] + x + cos * reach, text.at[1] + y - sin * reach];
+    Ok(text)
 }

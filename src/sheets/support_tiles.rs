@@ -4,13 +4,14 @@
 //! marks of two neighbours lie on the same points of the ground: cut along them, or
 //! lay them on each other.
 
-use super::page::{BODY, Column, Flow, Leaf, Listing, SMALL, THIN, Table};
-use super::support_map::{CHORDS, FootMap, NUMBERS, Numbers, no_feet};
+use super::page::{BODY, Column, Flow, Leaf, Listing, SMALL, TABLE, TABLE_LEADING, THIN, Table};
+use super::support_map::{CHORDS, FootMap, NUMBERS, Numbers, Taken, no_feet};
 use super::text::TextError;
 use super::text::message::messages;
 use super::{SheetError, SheetSettings, page};
+use crate::drawing::font::{LEADING, wrap};
 use crate::drawing::{
-    Anchor, Color, Draw, Drawing, DrawingError, Item, Placement, Point, Rect, Stroke,
+    Anchor, Color, Draw, Drawing, DrawingError, Item, Placement, Point, Rect, Stroke, Weight,
 };
 use crate::drawing::{Text, clip};
 use crate::frame::{End, Frame};
@@ -57,6 +58,11 @@ const MOST_TILES: usize = 150;
 const AROUND_SMALL: f64 = 14.0;
 /// Largest part of a page that the map of the tiles takes.
 const OVERVIEW_SHARE: f64 = 0.5;
+/// It gets smaller than that, down to this part, where the table of the feet then ends on
+/// the same page.
+const LEAST_OVERVIEW_SHARE: f64 = 0.35;
+/// Room between the map and the text below it, mm.
+const BELOW_MAP: f64 = 4.0;
 
 /// The overview page (and more, if the table is long).
 pub(super) fn overview(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Leaf>, SheetError> {
@@ -67,13 +73,19 @@ pub(super) fn overview(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Le
         return Ok(flow.finish(None));
     }
     let tiling = Tiling::new(&map, settings);
+    let explained = explained(&map, tiling.as_ref(), settings)?;
+    let lines = wrap(&explained, BODY, Weight::Regular, flow.area().width())?.len();
+    let words = lines as f64 * BODY * LEADING + BODY;
+    let table_height = (map.feet.len() + 2) as f64 * TABLE * TABLE_LEADING;
+    let share = (flow.room() - BELOW_MAP - words - table_height) / flow.room();
+    let share = if share < LEAST_OVERVIEW_SHARE { OVERVIEW_SHARE } else { share };
     let room = Rect {
         min: [flow.area().min[0], flow.y],
-        max: [flow.area().max[0], flow.y + flow.room() * OVERVIEW_SHARE],
+        max: [flow.area().max[0], flow.y + flow.room() * share.min(OVERVIEW_SHARE)],
     };
     let height = small_map(flow.page(), &map, tiling.as_ref(), room, settings)?;
-    flow.skip(height + 4.0);
-    flow.paragraph(&explained(&map, tiling.as_ref(), settings)?)?;
+    flow.skip(height + BELOW_MAP);
+    flow.paragraph(&explained)?;
     flow.table(&table(&map, settings)?)?;
     Ok(flow.finish(None))
 }
@@ -82,7 +94,7 @@ pub(super) fn overview(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Le
 pub(super) fn tiles(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Leaf>, SheetError> {
     let map = FootMap::new(frame);
     let Some(tiling) = Tiling::new(&map, settings) else { return Ok(Vec::new()) };
-    let full = map.draw(1.0, &mut Vec::new(), Numbers::All, settings)?;
+    let full = map.draw(1.0, &mut Taken::default(), Numbers::All, settings)?;
     let mut leaves = Vec::new();
     for tile in tiling.used(&full) {
         leaves.push(tiling.leaf(tile, &full, &map.feet, settings)?);
@@ -165,19 +177,22 @@ fn small_map(
     let offset = [room.center()[0] - on_paper.center()[0], room.min[1] - on_paper.min[1]];
     let place = Placement::at(offset);
     let used = match tiling {
-        Some(tiling) => tiling.used(&map.draw(1.0, &mut Vec::new(), Numbers::All, settings)?),
+        Some(tiling) => {
+            tiling.used(&map.draw(1.0, &mut Taken::default(), Numbers::All, settings)?)
+        }
         None => Vec::new(),
     };
     let mut items: Vec<Item> = Vec::new();
+    let mut taken = Taken::default();
     if let Some(tiling) = tiling {
         tiling.draw_grid(&mut items, n, &used);
+        taken.lines = tiling.grid_lines(n);
     }
     // Always in small letters and arrows, even if the scale is 1:1.
-    let mut taken = Vec::new();
     let small = map.draw(n.max(1.0 + f64::EPSILON), &mut taken, Numbers::WhereFree, settings)?;
     items.extend(small.items().cloned());
     if let Some(tiling) = tiling {
-        tiling.draw_names(&mut items, n, &used, &taken)?;
+        tiling.draw_names(&mut items, n, &used, &taken.places)?;
     }
     out.place(&items, &place);
     Ok(height)
@@ -314,6 +329,17 @@ impl Tiling {
                 }
             }
         }
+    }
+
+    /// The lines between the tiles at 1:n, and round them.
+    fn grid_lines(&self, n: f64) -> Vec<[Point; 2]> {
+        let all = self.cell([0, 0], n).union(&self.cell(self.count.map(|c| c - 1), n));
+        let (low, high) = (all.min, all.max);
+        let [columns, rows] = self.count;
+        let upright = (0..columns).map(|c| self.cell([c, 0], n).min[0]).chain([high[0]]);
+        let level = (0..rows).map(|r| self.cell([0, r], n).min[1]).chain([high[1]]);
+        let upright = upright.map(|x| [[x, low[1]], [x, high[1]]]);
+        upright.chain(level.map(|y| [[low[0], y], [high[0], y]])).collect()
     }
 
     /// The name of each printed tile in a corner that is free.

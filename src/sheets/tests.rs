@@ -368,18 +368,19 @@ fn pages_are_named_in_order_and_render() {
         SheetSettings { model: "家 igloo\n".to_owned(), ..settings(Paper::A4, PaperUnits::Mm) };
     let pages = sheets(&frame, &LAID.2, None, &cut_plan(&frame), &settings).unwrap();
     let stems: Vec<&str> = pages.iter().map(|s| s.stem.as_str()).collect();
-    let expected = ["01-cover", "02-figures", "03-cut-list", "04-rod-cards", "05-support-map"];
+    let expected =
+        ["01-cover", "02-figures", "03-parts", "04-cut-list", "05-rod-cards", "06-support-map"];
     assert_eq!(stems, expected);
     let laid = sheets(&frame, &LAID.2, Some(&LAID.1), &cut_plan(&frame), &settings).unwrap();
     let stems: Vec<&str> = laid.iter().map(|s| s.stem.as_str()).collect();
     let mut expected = expected.map(|stem| stem[3..].to_owned()).to_vec();
-    expected.insert(2, "footprint".to_owned());
+    expected.insert(3, "footprint".to_owned());
     let stems: Vec<&str> = stems.iter().map(|stem| &stem[3..]).collect();
     assert_eq!(stems, expected);
     let pages: Vec<_> = pages.into_iter().map(|s| s.page).collect();
     assert!(render(&pages, &DocumentInfo::default()).is_ok());
     assert!(texts(&pages[1].drawing).any(|t| t.string == "? igloo "));
-    assert!(texts(&pages[1].drawing).any(|t| t.string == "page 2/5"));
+    assert!(texts(&pages[1].drawing).any(|t| t.string == "page 2/6"));
 }
 
 #[test]

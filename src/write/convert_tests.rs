@@ -20,6 +20,20 @@ const READ_BACK: [Format; 8] = [
 /// Single precision holds 24 binary digits; scaling to metres and back rounds twice more.
 const SINGLE: f64 = 2.0 / (1 << 24) as f64;
 
+/// A surface in a format for surfaces.
+fn surface(mesh: &Mesh, format: Format) -> Vec<u8> {
+    surface_file(mesh, format).expect("a file").expect("a format for surfaces")
+}
+
+#[test]
+fn surfaces_are_written_in_the_formats_that_are_said_to_be_for_them() {
+    let mesh = samples::sample("flat").expect("a sample");
+    for format in Format::all() {
+        let file = surface_file(&mesh, format).expect("no error");
+        assert_eq!(file.is_some(), format.is_for_surfaces(), "{format}");
+    }
+}
+
 #[test]
 fn names_and_endings_lead_to_formats() {
     for format in Format::all() {
@@ -44,7 +58,7 @@ fn every_sample_comes_back_from_every_format() {
     for (name, _) in samples::NAMES {
         let mesh = samples::sample(name).expect("listed");
         for format in READ_BACK {
-            let bytes = surface_file(&mesh, format).expect("a file");
+            let bytes = surface(&mesh, format);
             let back = read_bytes(&format.to_string(), &bytes, None).expect("read").mesh;
             assert_eq!(back.triangles.len(), mesh.triangles.len(), "{name} {format}");
             for face in mesh.triangles.ids() {
@@ -53,7 +67,7 @@ fn every_sample_comes_back_from_every_format() {
                 }
             }
             // Writing again what was read gives the same file.
-            assert!(surface_file(&back, format).expect("a file") == bytes, "{name} {format}");
+            assert!(surface(&back, format) == bytes, "{name} {format}");
         }
     }
 }
@@ -85,9 +99,9 @@ fn corners(mesh: &Mesh) -> Vec<[f64; 3]> {
 #[test]
 fn both_forms_of_stl_hold_the_corners_in_order() {
     let mesh = samples::sample("train-station").expect("a sample");
-    let text = String::from_utf8(surface_file(&mesh, Format::StlAscii).expect("a file"));
+    let text = String::from_utf8(surface(&mesh, Format::StlAscii));
     assert_eq!(numbers(&text.expect("text"), "vertex "), corners(&mesh));
-    let bytes = surface_file(&mesh, Format::Stl).expect("a file");
+    let bytes = surface(&mesh, Format::Stl);
     let float = |b: &[u8]| f64::from(f32::from_le_bytes(b.try_into().expect("four bytes")));
     let found: Vec<[f64; 3]> = bytes[84..]
         .chunks(50)
@@ -107,13 +121,13 @@ fn ply_and_off_hold_vertices_and_triangles_in_order() {
     let indices: Vec<[f64; 3]> =
         mesh.triangles.iter().map(|t| t.map(|v| crate::ids::Id::index(v) as f64)).collect();
     for (format, head) in [(Format::PlyAscii, 10), (Format::Off, 2)] {
-        let text = String::from_utf8(surface_file(&mesh, format).expect("a file")).expect("text");
+        let text = String::from_utf8(surface(&mesh, format)).expect("text");
         let lines: Vec<&str> = text.lines().skip(head).collect();
         assert_eq!(lines.len(), vertices + faces);
         assert_eq!(numbers(&lines[..vertices].join("\n"), ""), points, "{format}");
         assert_eq!(numbers(&lines[vertices..].join("\n"), "3 "), indices, "{format}");
     }
-    let bytes = surface_file(&mesh, Format::Ply).expect("a file");
+    let bytes = surface(&mesh, Format::Ply);
     let body = &bytes[bytes.len() - 24 * vertices - 13 * faces..];
     let double = |b: &[u8]| f64::from_le_bytes(b.try_into().expect("eight bytes"));
     let found: Vec<f64> = body[..24 * vertices].chunks(8).map(double).collect();

@@ -1,22 +1,24 @@
 //! The model as a binary glTF 2.0 file: metres, y up.
 //!
-//! Every rod is a node of its own name with one shared cylinder (rods that taper alike share
-//! a cone), placed by
-//! translation, rotation and scale: the node's origin is end A and its y axis runs
-//! along the rod. Contacts and supports are empty nodes. Figures of each stand in its
-//! `extras`, in mm and degrees.
+//! Every rod is a node of its own name with a shape that it shares with the rods that are cut
+//! like it, placed by translation, rotation and scale: the node's origin is end A, its y axis
+//! runs along the rod, and its x axis upward as far as it can. Ends are flat: square, or level
+//! where the rod stands on the ground. The material tells how a rod ends ([`look`]).
+//! Contacts and supports are empty nodes. Figures of each stand in its `extras`, in mm and
+//! degrees.
 //!
 //! Coordinates are single precision, as the format has it: some 6e-8 of the distance
 //! from the origin, so a micrometre at ten metres.
 
 mod cylinder;
+mod look;
 mod parts;
 mod plain;
 
-pub(super) use cylinder::SIDES;
 pub use plain::{mesh_glb, mesh_gltf};
 
 use super::figure::rounded;
+use super::rod_shape::{RodShapes, across};
 use super::structure::{
     ContactEntry, ContactKindName, DiameterEntry, EndName, RodEntry, Structure, SupportEntry,
 };
@@ -24,8 +26,10 @@ use cylinder::{Cylinder, push_cylinders};
 use gltf::binary::{Glb, Header};
 use gltf_json::extras::{Extras, RawValue};
 use gltf_json::scene::UnitQuaternion;
-use gltf_json::{Index, Material, Mesh, Node, Root, Scene};
-use nalgebra::{Point3, Vector3};
+use gltf_json::{Index, Mesh, Node, Root, Scene};
+use look::{Look, Materials};
+use nalgebra::{Matrix3, Point3, Vector3};
+use plain::data_uri;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -48,26 +52,34 @@ pub enum GlbError {
 /// Digits after the point of figures in extras: a nanometre, a millionth of a degree.
 const DIGITS: i32 = 6;
 
-/// Colours, linear RGBA.
-const INNER: (&str, [f32; 4]) = ("inner rods", [0.63, 0.41, 0.19, 1.0]);
-const BORDER: (&str, [f32; 4]) = ("border rods", [0.25, 0.12, 0.05, 1.0]);
-
 /// The bytes of the model file.
 ///
 /// # Errors
 /// [`GlbError`]; a structure that passes [`Structure::check`] gives none.
 pub fn glb(structure: &Structure) -> Result<Vec<u8>, GlbError> {
+    let (root, buffer) = document(structure, |_| None)?;
+    wrap(&root, buffer)
+}
+
+/// The text of a .gltf file that holds its buffer in itself.
+///
+/// # Errors
+/// As [`glb`].
+pub fn gltf(structure: &Structure) -> Result<String, GlbError> {
+    let (root, _) = document(structure, |buffer| Some(data_uri(buffer)))?;
+    Ok(gltf_json::serialize::to_string(&root)? + "\n")
+}
+
+/// The document and its buffer, which `uri` says how to find.
+fn document(
+    structure: &Structure,
+    uri: impl FnOnce(&[u8]) -> Option<String>,
+) -> Result<(Root, Vec<u8>), GlbError> {
     let mut root = Root::default();
     root.asset.generator = Some(generator());
-    let tapers = tapers(structure);
-    let (cylinders, buffer) = push_cylinders(&mut root, &tapers);
-    let notes = notes(structure);
-    let rods = rod_nodes(
-        &mut root,
-        structure,
-        &Shapes { tapers: &tapers, cylinders: &cylinders },
-        &notes,
-    )?;
+    let shapes = RodShapes::new(structure);
+    let (cylinders, buffer) = push_cylinders(&mut root, &shapes.all, uri);
+    let rods = rod_nodes(&mut root, structure, &shapes, &cylinders)?;
     let contacts = contact_nodes(&mut root, structure)?;
     let supports = support_nodes(&mut root, structure)?;
     let groups = [("rods", rods), ("contacts", contacts), ("supports", supports)];
@@ -85,7 +97,7 @@ pub fn glb(structure: &Structure) -> Result<Vec<u8>, GlbError> {
     let scene =
         Scene { nodes: vec![top], extensions: None, extras: None, name: Some("rodwright".into()) };
     root.scene = Some(root.push(scene));
-    wrap(&root, buffer)
+    Ok((root, buffer))
 }
 
 /// The program's name, as documents carry it.
@@ -107,21 +119,44 @@ fn wrap(root: &Root, buffer: Vec<u8>) -> Result<Vec<u8>, GlbError> {
 /// What a rod's node tells beside the rod itself.
 #[derive(Default)]
 struct Notes<'a> {
-    contacts: Vec<(f64, &'a str)>,
+    /// From end A on.
+    marks: Vec<MarkFigures<'a>>,
     support: Option<EndName>,
+}
+
+/// A contact as a rod sees it.
+#[derive(Serialize)]
+struct MarkFigures<'a> {
+    contact: &'a str,
+    at_mm: f64,
+    /// How the rod lies to its partner: `over`, `under`, or `end` where two ends meet.
+    side: &'static str,
+    partner: &'a str,
+    at_partner_mm: f64,
+    angle_deg: f64,
 }
 
 fn notes(structure: &Structure) -> HashMap<&str, Notes<'_>> {
     let mut notes: HashMap<&str, Notes<'_>> = HashMap::new();
     for c in &structure.contacts {
-        notes.entry(&c.over).or_default().contacts.push((c.at_over, &c.id));
-        notes.entry(&c.under).or_default().contacts.push((c.at_under, &c.id));
+        let [over, under] = [(c.over.as_str(), c.at_over), (c.under.as_str(), c.at_under)];
+        for (me, other, side) in [(over, under, "over"), (under, over, "under")] {
+            let mark = MarkFigures {
+                contact: &c.id,
+                at_mm: rounded(me.1, DIGITS),
+                side: if c.kind == ContactKindName::End { "end" } else { side },
+                partner: other.0,
+                at_partner_mm: rounded(other.1, DIGITS),
+                angle_deg: rounded(c.angle, DIGITS),
+            };
+            notes.entry(me.0).or_default().marks.push(mark);
+        }
     }
     for s in &structure.supports {
         notes.entry(&s.rod).or_default().support = Some(s.end);
     }
     for note in notes.values_mut() {
-        note.contacts.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(b.1)));
+        note.marks.sort_by(|a, b| a.at_mm.total_cmp(&b.at_mm).then(a.contact.cmp(b.contact)));
     }
     notes
 }
@@ -143,6 +178,7 @@ struct RodFigures<'a> {
     border: bool,
     units: &'a [String],
     contacts: Vec<&'a str>,
+    marks: &'a [MarkFigures<'a>],
     #[serde(skip_serializing_if = "Option::is_none")]
     support: Option<&'static str>,
 }
@@ -150,26 +186,23 @@ struct RodFigures<'a> {
 fn rod_nodes(
     root: &mut Root,
     structure: &Structure,
-    shapes: &Shapes,
-    notes: &HashMap<&str, Notes<'_>>,
+    shapes: &RodShapes,
+    cylinders: &[Cylinder],
 ) -> Result<Vec<Index<Node>>, GlbError> {
-    let none = Notes::default();
-    // A mesh without nodes would be left over, so each is made when first needed.
-    let mut meshes: Vec<[Option<Index<Mesh>>; 2]> = vec![[None; 2]; shapes.cylinders.len()];
+    let (notes, none) = (notes(structure), Notes::default());
+    let mut meshes = Meshes { cylinders, materials: Materials::default(), made: HashMap::new() };
     let mut nodes = Vec::with_capacity(structure.rods.len());
-    for rod in &structure.rods {
-        let look = if rod.border { BORDER } else { INNER };
-        let shape = shapes.of(structure.diameters(rod));
-        let mesh = *meshes[shape][usize::from(rod.border)]
-            .get_or_insert_with(|| push_mesh(root, &shapes.cylinders[shape], look));
+    for (rod, &shape) in structure.rods.iter().zip(&shapes.of) {
         let note = notes.get(rod.id.as_str()).unwrap_or(&none);
+        let mesh = meshes.of(root, shape, Look::of(rod, note.marks.iter().map(|m| m.side)));
         let figures = RodFigures {
             length_mm: rounded(rod.length, DIGITS),
             diameter_mm: structure.diameters(rod).into(),
             class: &rod.class,
             border: rod.border,
             units: &rod.units,
-            contacts: note.contacts.iter().map(|c| c.1).collect(),
+            contacts: note.marks.iter().map(|m| m.contact).collect(),
+            marks: &note.marks,
             support: note.support.map(EndName::letter),
         };
         let node = Node { mesh: Some(mesh), extras: extras(&figures)?, ..placed(rod, structure) };
@@ -178,34 +211,22 @@ fn rod_nodes(
     Ok(nodes)
 }
 
-/// The shapes that rods share, each with its taper: the radius at end B as part of that at
-/// end A.
-struct Shapes<'a> {
-    tapers: &'a [f64],
+/// The meshes of rods: one for each shape in each material that it comes in.
+struct Meshes<'a> {
     cylinders: &'a [Cylinder],
+    materials: Materials,
+    made: HashMap<(usize, Look), Index<Mesh>>,
 }
 
-impl Shapes<'_> {
-    /// The place of the shape of a rod of these diameters.
-    fn of(&self, diameters: [f64; 2]) -> usize {
-        self.tapers.iter().position(|&t| t == taper(diameters)).unwrap_or_default()
+impl Meshes<'_> {
+    /// A mesh without nodes would be left over, so each is made when first needed.
+    fn of(&mut self, root: &mut Root, shape: usize, look: Look) -> Index<Mesh> {
+        let Self { cylinders, materials, made } = self;
+        *made.entry((shape, look)).or_insert_with(|| {
+            let material = materials.of(root, look);
+            root.push(cylinders[shape].mesh(look.name(), material))
+        })
     }
-}
-
-fn taper([a, b]: [f64; 2]) -> f64 {
-    b / a
-}
-
-/// The different tapers of rods, in the order of the first ones.
-fn tapers(structure: &Structure) -> Vec<f64> {
-    let mut tapers: Vec<f64> = Vec::new();
-    for rod in &structure.rods {
-        let taper = taper(structure.diameters(rod));
-        if !tapers.contains(&taper) {
-            tapers.push(taper);
-        }
-    }
-    tapers
 }
 
 /// The node of a rod, without its mesh: the shared one runs from the origin to (0, 1, 0),
@@ -216,24 +237,20 @@ fn placed(rod: &RodEntry, structure: &Structure) -> Node {
     Node {
         name: Some(rod.id.clone()),
         translation: Some(single(a)),
-        rotation: Some(rotation_of_y((b - a).normalize())),
+        rotation: Some(rotation(&(b - a).normalize())),
         scale: Some([radius, (b - a).norm() as f32, radius]),
         ..Node::default()
     }
 }
 
-/// The shortest rotation that takes the y axis to a unit vector: (y × d, 1 + y·d),
-/// normalised.
-fn rotation_of_y(d: Vector3<f64>) -> UnitQuaternion {
-    let q = nalgebra::Vector4::new(d.z, 0.0, -d.x, 1.0 + d.y);
-    // Straight down, where every half turn about a level axis will do.
-    let q = q.try_normalize(DOWN).unwrap_or_else(nalgebra::Vector4::x);
-    UnitQuaternion([q.x, q.y, q.z, q.w].map(|x| x as f32))
+/// The rotation that takes the y axis to a unit vector, and the x axis upward.
+fn rotation(along: &Vector3<f64>) -> UnitQuaternion {
+    let [upward, _] = across(along, &Vector3::y());
+    let axes = Matrix3::from_columns(&[upward, *along, upward.cross(along)]);
+    let turn = nalgebra::Rotation3::from_matrix_unchecked(axes);
+    let q = nalgebra::UnitQuaternion::from_rotation_matrix(&turn).into_inner();
+    UnitQuaternion([q.i, q.j, q.k, q.w].map(|x| x as f32 + 0.0))
 }
-
-/// |(y × d, 1 + y·d)| below which a direction counts as straight down: the sideways
-/// part is then no more than the noise of a unit vector.
-const DOWN: f64 = 1e-12;
 
 #[derive(Serialize)]
 struct ContactFigures<'a> {
@@ -246,9 +263,12 @@ struct ContactFigures<'a> {
     unit: &'a str,
 }
 
+fn rods_by_name(structure: &Structure) -> HashMap<&str, &RodEntry> {
+    structure.rods.iter().map(|r| (r.id.as_str(), r)).collect()
+}
+
 fn contact_nodes(root: &mut Root, structure: &Structure) -> Result<Vec<Index<Node>>, GlbError> {
-    let rods: HashMap<&str, &RodEntry> =
-        structure.rods.iter().map(|r| (r.id.as_str(), r)).collect();
+    let rods = rods_by_name(structure);
     let mut nodes = Vec::with_capacity(structure.contacts.len());
     for c in &structure.contacts {
         let figures = ContactFigures {
@@ -288,17 +308,31 @@ struct SupportFigures<'a> {
     end: &'static str,
     x_mm: f64,
     y_mm: f64,
+    /// Of the rod above the horizontal.
+    elevation_deg: f64,
+    /// Where the rod heads from its foot, counter-clockwise from the x axis.
+    azimuth_deg: f64,
+    /// What is sawn off the square end.
+    bevel_deg: f64,
 }
 
 fn support_nodes(root: &mut Root, structure: &Structure) -> Result<Vec<Index<Node>>, GlbError> {
+    let rods = rods_by_name(structure);
     let mut nodes = Vec::with_capacity(structure.supports.len());
     for (i, s) in structure.supports.iter().enumerate() {
         let SupportEntry { rod, end, point: [x, y, _] } = s;
+        let entry = rods.get(rod.as_str()).ok_or_else(|| GlbError::MissingRod(rod.clone()))?;
+        let [a, b] = [entry.a, entry.b].map(Vector3::from);
+        let up = if *end == EndName::A { b - a } else { a - b };
+        let elevation = up.z.atan2(up.x.hypot(up.y)).to_degrees();
         let figures = SupportFigures {
             rod,
             end: end.letter(),
             x_mm: rounded(*x, DIGITS),
             y_mm: rounded(*y, DIGITS),
+            elevation_deg: rounded(elevation, DIGITS),
+            azimuth_deg: rounded(up.y.atan2(up.x).to_degrees().rem_euclid(360.0), DIGITS),
+            bevel_deg: rounded(90.0 - elevation, DIGITS),
         };
         let name = format!("S{:03}-{rod}-{}", i + 1, end.letter());
         let node = empty(&name, s.point, extras(&figures)?);
@@ -319,16 +353,6 @@ fn empty(name: &str, point: [f64; 3], extras: Extras) -> Node {
 fn push_group(root: &mut Root, name: &str, children: Vec<Index<Node>>) -> Index<Node> {
     let children = (!children.is_empty()).then_some(children);
     root.push(Node { name: Some(name.to_owned()), children, ..Node::default() })
-}
-
-fn push_mesh(root: &mut Root, cylinder: &Cylinder, look: (&str, [f32; 4])) -> Index<Mesh> {
-    let (name, color) = look;
-    let mut material = Material { name: Some(name.to_owned()), ..Material::default() };
-    material.pbr_metallic_roughness.base_color_factor.0 = color;
-    material.pbr_metallic_roughness.metallic_factor.0 = 0.0;
-    material.pbr_metallic_roughness.roughness_factor.0 = 0.8;
-    let material = root.push(material);
-    root.push(cylinder.mesh(name, material))
 }
 
 /// From mm with z up to metres with y up, right-handed both.

@@ -12,6 +12,7 @@ pub mod obj;
 pub mod off;
 pub mod ply;
 pub mod report;
+mod rod_shape;
 pub mod rods;
 pub mod stl;
 pub mod structure;

@@ -1,17 +1,17 @@
-//! Rods as meshes: closed prisms round their axes, or parts of cones, mm, z up.
+//! Rods as meshes: closed prisms round their axes, or parts of cones, cut level where they
+//! stand on the ground; mm, z up.
 
-use super::glb::SIDES;
 use super::obj::write_obj_objects;
+use super::rod_shape::{RodShape, RodShapes, SIDES, across};
 use super::stl::{write_stl, write_stl_text};
 use super::structure::{RodEntry, Structure};
 use crate::ids::{Id, VertexId};
 use crate::surface::{Mesh, Point3, Vector3};
-use std::f64::consts::TAU;
 
 /// The rods as the text of an OBJ file, an object each, by their names.
 pub fn rods_obj(structure: &Structure) -> String {
-    let rods = structure.rods.iter();
-    write_obj_objects(rods.map(|r| (r.id.as_str(), rod_mesh(r, structure.diameters(r)))))
+    let meshes = rod_meshes(structure);
+    write_obj_objects(structure.rods.iter().map(|rod| rod.id.as_str()).zip(meshes))
 }
 
 /// The rods as the bytes of a binary STL file.
@@ -24,11 +24,11 @@ pub fn rods_stl_text(structure: &Structure) -> String {
     write_stl_text(&all_rods(structure))
 }
 
-fn all_rods(structure: &Structure) -> Mesh {
+/// All rods as one mesh, one after the other; they share no vertices.
+pub fn all_rods(structure: &Structure) -> Mesh {
     let mut all = Mesh::default();
-    for rod in &structure.rods {
+    for mesh in rod_meshes(structure) {
         let first = all.points.len();
-        let mesh = rod_mesh(rod, structure.diameters(rod));
         mesh.points.iter().for_each(|&p| _ = all.points.push(p));
         for t in &mesh.triangles {
             all.triangles.push(t.map(|v| VertexId::new(first + v.index())));
@@ -37,22 +37,25 @@ fn all_rods(structure: &Structure) -> Mesh {
     all
 }
 
+/// A mesh for each rod.
+fn rod_meshes(structure: &Structure) -> impl Iterator<Item = Mesh> {
+    let RodShapes { all, of } = RodShapes::new(structure);
+    let mesh = move |(rod, shape): (&RodEntry, usize)| {
+        rod_mesh(rod, structure.diameters(rod)[0] / 2.0, &all[shape])
+    };
+    structure.rods.iter().zip(of).map(mesh)
+}
+
 /// A closed prism with its edges on the rod's round side: the corners of end A, then
-/// those of end B.
-fn rod_mesh(rod: &RodEntry, diameters: [f64; 2]) -> Mesh {
+/// those of end B. `radius` is that at end A.
+fn rod_mesh(rod: &RodEntry, radius: f64, shape: &RodShape) -> Mesh {
     let [a, b] = [rod.a, rod.b].map(Point3::from);
-    let along = (b - a).normalize();
-    // The axis that lies farthest from the rod's gives a direction across it.
-    let least = along.iamin();
-    let across = Vector3::ith(least, 1.0).cross(&along).normalize();
-    let sideways = along.cross(&across);
+    let [upward, sideways] = across(&(b - a).normalize(), &Vector3::z());
     let sides = usize::from(SIDES);
     let mut mesh = Mesh::default();
-    for (end, diameter) in [a, b].into_iter().zip(diameters) {
-        let [across, beside] = [across, sideways].map(|v| v * (diameter / 2.0));
-        for i in 0..sides {
-            let (sin, cos) = (TAU * i as f64 / sides as f64).sin_cos();
-            mesh.points.push(end + across * cos + beside * sin);
+    for end in [0, 1] {
+        for [along, up, side] in shape.rim(end) {
+            mesh.points.push(a + (b - a) * along + (upward * up + sideways * side) * radius);
         }
     }
     let v = VertexId::new;
@@ -75,6 +78,7 @@ mod tests {
     use crate::shop::lengths::classes;
     use crate::surface::shape::Shape;
     use crate::surface::topology::Topology;
+    use std::f64::consts::TAU;
 
     fn structure() -> Structure {
         let frame = circuit(5, 3.0);
@@ -87,7 +91,8 @@ mod tests {
         for b in [[3.0, 4.0, 12.0], [0.0, 0.0, 7.0], [-7.0, 0.0, 0.0], [0.0, 1e-3, -9.0]] {
             rod.a = [1.0, 2.0, 3.0];
             rod.b = [1.0 + b[0], 2.0 + b[1], 3.0 + b[2]];
-            let mesh = rod_mesh(&rod, [6.0, 2.0]);
+            let shape = RodShape { taper: 1.0 / 3.0, slopes: [0.0; 2] };
+            let mesh = rod_mesh(&rod, 3.0, &shape);
             let shape = Shape::new(&mesh, &Topology::new(&mesh).expect("sound"));
             let [piece] = &shape.pieces[..] else { panic!("one piece") };
             assert_eq!((piece.borders.len(), piece.genus), (0, 0));

@@ -101,10 +101,40 @@ fn a_structure_becomes_its_rods() {
     convert(dir, &["out", "rods.dxf"]);
     let text = String::from_utf8(read(dir, "rods.dxf")).unwrap();
     assert_eq!(text.lines().filter(|l| *l == "LINE").count(), rods);
-    let (status, message) = refused(dir, &["out", "rods.ply"]);
-    assert_eq!(status, 2);
-    assert!(message.contains("only as glb, obj, stl, stl-ascii, dxf"), "{message}");
+    convert(dir, &["out", "rods.ply"]);
+    convert(dir, &["out", "rods.off"]);
+    let [ply, off] =
+        ["rods.ply", "rods.off"].map(|f| String::from_utf8_lossy(&read(dir, f)).into_owned());
+    let [vertices, faces] = [48 * rods, 92 * rods];
+    assert!(ply.contains(&format!("element vertex {vertices}\n")));
+    assert!(ply.contains(&format!("element face {faces}\n")));
+    assert!(off.starts_with(&format!("OFF\n{vertices} {faces} ")));
+    convert(dir, &["out", "rods.gltf"]);
+    let text: serde_json::Value = serde_json::from_slice(&read(dir, "rods.gltf")).unwrap();
+    assert!(text["nodes"].as_array().unwrap().iter().any(|node| node["name"] == "R001"));
     assert_eq!(refused(dir, &["out", "rods.glb", "--cut", "z=3"]).0, 2);
+}
+
+#[test]
+fn a_structure_becomes_the_tables_of_its_folder_again() {
+    let dir = tempdir().unwrap();
+    let dir = dir.path();
+    let build = ["build", &sample("igloo.obj"), "-o", "out", "--only", "structure,csv", "-q"];
+    rodwright(dir).args(build).assert().success();
+    for (file, format, same) in [
+        ("again.json", "json", "structure.json"),
+        ("rods.csv", "csv", "rods.csv"),
+        ("contacts.csv", "contacts-csv", "contacts.csv"),
+        ("supports.csv", "supports-csv", "supports.csv"),
+    ] {
+        convert(dir, &["out/structure.json", file, "--to", format]);
+        assert!(read(dir, file) == read(&dir.join("out"), same), "{file}");
+    }
+    convert(dir, &["out", "ending.csv"]);
+    assert!(read(dir, "ending.csv") == read(dir, "rods.csv"));
+    let (status, message) = refused(dir, &[&sample("igloo.obj"), "dome.csv"]);
+    assert_eq!(status, 2);
+    assert!(message.contains("surfaces are not written as csv, only as obj"), "{message}");
 }
 
 #[test]

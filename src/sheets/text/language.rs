@@ -2,8 +2,8 @@
 
 use super::message::Entry;
 use crate::sheets::{
-    cover, cut_list, figures, footprint, handout, histograms, legend, notes, page, rod_cards,
-    strip, support_map, support_tiles,
+    cover, cut_list, figures, footprint, handout, histograms, labels, legend, notes, page, parts,
+    rod_cards, strip, support_map, support_tiles,
 };
 use serde::{Deserialize, Serialize};
 
@@ -81,8 +81,10 @@ pub(super) const FILES: &[MessageFile] = &[
     file!("legend.toml", legend::say::ENTRIES),
     file!("figures.toml", figures::say::ENTRIES, histograms::say::ENTRIES),
     file!("footprint.toml", footprint::say::ENTRIES),
+    file!("parts.toml", parts::say::ENTRIES),
     file!("cut-list.toml", cut_list::say::ENTRIES),
     file!("rod-cards.toml", rod_cards::say::ENTRIES, strip::say::ENTRIES),
+    file!("labels.toml", labels::say::ENTRIES),
     file!("support-map.toml", support_map::say::ENTRIES, support_tiles::say::ENTRIES),
 ];
 

@@ -2,7 +2,7 @@
 //!
 //! A bar of length L holds pieces ℓ when Σℓ + k·(n − 1) ≤ L − 2t, with k the width of the saw
 //! cut and t what is trimmed off either end: what one cut takes lies between two pieces. That
-//! is bin packing of ℓ + k into L − 2t + k.
+//! is bin packing of ℓ + k into L − 2t + k. An offcut is trimmed at one end only: L − t.
 //!
 //! What is bought is made as small as possible: its price; without prices its length, which is
 //! the number of bars where all are alike. Offcuts at hand cost nothing. Four steps, each only
@@ -241,7 +241,8 @@ impl<'a> Batch<'a> {
         let bar = |load: &Load| {
             let offer = self.offers[load.kind]?;
             let mut pieces = Vec::new();
-            let mut at = stock.trim - stock.kerf;
+            let trim = stock.first_trim(offer.at_hand);
+            let mut at = trim - stock.kerf;
             for &(size, count) in &load.pieces {
                 for &(rod, length) in next[size].by_ref().take(count) {
                     at += stock.kerf + length;
@@ -257,7 +258,7 @@ impl<'a> Batch<'a> {
                 left,
                 at_hand: offer.at_hand,
                 price: if offer.at_hand { None } else { offer.price },
-                trimmed: stock.trim > 0.0,
+                trimmed: trim > 0.0,
             })
         };
         loads.iter().filter_map(bar).collect()

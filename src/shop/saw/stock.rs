@@ -44,7 +44,8 @@ pub struct Stock {
     pub bars: Vec<Offer>,
     /// Width of a saw cut.
     pub kerf: f64,
-    /// What is sawn off a bar at either end before it is used, cut and all.
+    /// What is sawn off a bar at either end before it is used, cut and all. An offcut has a
+    /// sawn end already: it is measured from there, and loses this at its other end only.
     pub trim: f64,
     /// Shortest left-over that is kept; none if all is waste.
     pub keep: Option<f64>,
@@ -58,7 +59,12 @@ impl Stock {
 
     /// What one bar holds as rods and the cuts between them, mm; nothing if the trim takes all.
     pub fn room(&self, offer: &Offer) -> f64 {
-        offer.length - 2.0 * self.trim
+        offer.length - self.first_trim(offer.at_hand) - self.trim
+    }
+
+    /// What is sawn off the end of a bar that stops are measured from, mm.
+    pub fn first_trim(&self, at_hand: bool) -> f64 {
+        if at_hand { 0.0 } else { self.trim }
     }
 
     /// Refuses what is no stock.
@@ -123,7 +129,7 @@ pub enum CutError {
     #[error("a count of 0 bars of {length} mm is no stock")]
     Count { length: f64 },
     /// Nothing of a bar remains.
-    #[error("a trim of {trim} mm at both ends leaves nothing of bars of {length} mm")]
+    #[error("a trim of {trim} mm leaves nothing of bars of {length} mm")]
     AllTrimmed { length: f64, trim: f64 },
     /// Some rods are longer than any bar.
     #[error("{} longer than the longest stock ({stock} mm{}); the longest needs {needed} mm",

@@ -3,7 +3,7 @@
 use super::stock::fits;
 
 /// Pieces to saw and bars to saw them from. A piece of length ℓ takes ℓ + k of a bar with
-/// room L − 2t + k: k is what a cut takes, t the trim.
+/// room L − 2t + k: k is what a cut takes, t the trim, of which an offcut loses one.
 #[derive(Clone, Debug)]
 pub struct Task {
     /// ℓ + k of the pieces, longest first, each size once, mm.

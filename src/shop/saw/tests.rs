@@ -181,6 +181,17 @@ fn trim_is_sawn_off_both_ends() {
 }
 
 #[test]
+fn offcuts_are_measured_from_their_sawn_end_and_trimmed_at_the_other() {
+    let bars = vec![Offer::offcuts(500.0, 1), Offer::plain(1000.0)];
+    let stock = Stock { bars, kerf: 1.0, trim: 2.0, keep: None };
+    let p = planned(&[498.0, 498.0], &stock);
+    let [offcut, bar] = &p.bars[..] else { panic!("{:?}", p.bars) };
+    assert_eq!((offcut.at_hand, offcut.pieces[0].stop, offcut.left), (true, 498.0, 1.0));
+    assert_eq!((offcut.cuts(), bar.pieces[0].stop, bar.cuts()), (1, 500.0, 2));
+    assert!(planned(&[498.5], &stock).bars.iter().all(|bar| !bar.at_hand));
+}
+
+#[test]
 fn long_left_overs_are_kept_and_no_waste() {
     let stock = Stock { keep: Some(150.0), ..stock(&[1000.0], 1.0) };
     let p = planned(&[600.0, 600.0, 820.0], &stock);
@@ -270,7 +281,7 @@ fn least(lengths: &[f64], stock: &Stock, costs: &[f64]) -> Option<f64> {
 fn assert_sound(p: &CutPlan, sticks: &IdVec<RodId, Stick>, stock: &Stock) {
     let mut rods: Vec<RodId> = Vec::new();
     for bar in &p.bars {
-        let mut at = stock.trim - stock.kerf;
+        let mut at = stock.first_trim(bar.at_hand) - stock.kerf;
         for piece in &bar.pieces {
             at += stock.kerf + piece.length;
             assert!((piece.stop - at).abs() < 1e-9);
@@ -381,11 +392,13 @@ proptest! {
         prices in proptest::collection::vec((60u32..300, proptest::option::of(1usize..4)), 3),
         offcuts in proptest::collection::vec((200u32..1400, 1usize..3), 0..3),
         kerf in prop_oneof![Just(0.0), Just(1.0)],
+        trim in prop_oneof![Just(0.0), Just(2.0)],
     ) {
         let sold = prices.iter().zip([700.0, 1000.0, 1500.0]);
         let sold = sold.map(|(&(p, count), l)| priced(l, f64::from(p) * 0.01, count));
         let old = offcuts.iter().map(|&(h, n)| Offer::offcuts(f64::from(h) * 0.5, n));
-        let stock = Stock { bars: old.chain(sold).collect(), kerf, ..Stock::default() };
+        let bars = old.chain(sold).collect();
+        let stock = Stock { bars, kerf, trim, ..Stock::default() };
         let costs: Vec<f64> = stock.bars.iter().map(|b| b.price.unwrap_or(0.0)).collect();
         let sticks = sticks(&lengths);
         match (plan(&sticks, &stock), least(&lengths, &stock, &costs)) {

@@ -30,7 +30,7 @@ pub fn mesh_glb(mesh: &Mesh) -> Result<Vec<u8>, GlbError> {
 /// As [`mesh_glb`].
 pub fn mesh_gltf(mesh: &Mesh) -> Result<String, GlbError> {
     let geometry = Geometry::new(mesh);
-    let uri = format!("data:application/octet-stream;base64,{}", base64(&geometry.bytes));
+    let uri = data_uri(&geometry.bytes);
     Ok(gltf_json::serialize::to_string(&document(&geometry, Some(uri)))? + "\n")
 }
 
@@ -112,6 +112,11 @@ fn document(geometry: &Geometry, uri: Option<String>) -> Root {
         name: Some("surface".into()),
     }));
     root
+}
+
+/// A buffer as an address that holds it.
+pub(super) fn data_uri(bytes: &[u8]) -> String {
+    format!("data:application/octet-stream;base64,{}", base64(bytes))
 }
 
 /// Base64 with padding (RFC 4648, section 4).

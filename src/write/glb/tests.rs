@@ -41,38 +41,73 @@ fn cylinders_lie_on_the_axes_of_their_rods() {
     }
 }
 
-#[test]
-fn all_rods_share_one_cylinder() {
-    let s = structure();
-    let bytes = glb(&s).unwrap();
-    let gltf = Gltf::from_slice(&bytes).unwrap();
-    assert_eq!((gltf.accessors().count(), gltf.meshes().count()), (3, 1));
-    let mut two = s.clone();
-    two.rods[0].border = false;
-    let gltf = Gltf::from_slice(&glb(&two).unwrap()).unwrap();
-    assert_eq!((gltf.accessors().count(), gltf.meshes().count()), (3, 2));
-    let material = |name: &str| {
-        let mesh = node(&gltf, name).mesh().unwrap();
-        mesh.primitives().next().unwrap().material().name().unwrap().to_owned()
-    };
-    assert_eq!((material("R001"), material("R002")), ("inner rods".into(), "border rods".into()));
+/// Accessors, meshes and materials.
+fn counts(gltf: &Gltf) -> [usize; 3] {
+    [gltf.accessors().count(), gltf.meshes().count(), gltf.materials().count()]
 }
 
 #[test]
-fn rods_that_taper_alike_share_a_cone() {
+fn rods_that_are_cut_alike_share_a_shape() {
+    let mut s = structure();
+    let gltf = |s: &Structure| Gltf::from_slice(&glb(s).unwrap()).unwrap();
+    assert_eq!(counts(&gltf(&s)), [3, 1, 1], "a regular circuit");
+    s.supports.remove(0);
+    assert_eq!(counts(&gltf(&s)), [5, 2, 1], "one stands no more");
+    s.supports.clear();
+    assert_eq!(counts(&gltf(&s)), [3, 1, 1]);
+}
+
+#[test]
+fn the_material_tells_how_a_rod_ends() {
+    let mut s = structure();
+    s.supports.clear();
+    let material = |s: &Structure, name: &str| {
+        let gltf = Gltf::from_slice(&glb(s).unwrap()).unwrap();
+        let mesh = node(&gltf, name).mesh().unwrap();
+        let material = mesh.primitives().next().unwrap().material();
+        material.name().unwrap().to_owned()
+    };
+    assert_eq!(material(&s, "R001"), "border rods");
+    s.rods.iter_mut().for_each(|rod| rod.border = false);
+    assert_eq!(material(&s, "R001"), "rods that end over and under");
+    let swap = |c: &mut ContactEntry| {
+        std::mem::swap(&mut c.over, &mut c.under);
+        std::mem::swap(&mut c.at_over, &mut c.at_under);
+    };
+    let [first, last] = [0.0, f64::MAX].map(|from| {
+        let of =
+            s.contacts.iter().enumerate().filter(|(_, c)| c.over == "R001" || c.under == "R001");
+        let at = |c: &ContactEntry| if c.over == "R001" { c.at_over } else { c.at_under };
+        let near = |c: &ContactEntry| (at(c) - from).abs();
+        of.min_by(|(_, a), (_, b)| near(a).total_cmp(&near(b))).unwrap().0
+    });
+    assert_ne!(first, last);
+    let mut over = s.clone();
+    for i in [first, last] {
+        if over.contacts[i].under == "R001" {
+            swap(&mut over.contacts[i]);
+        }
+    }
+    assert_eq!(material(&over, "R001"), "rods that end over");
+    [first, last].iter().for_each(|&i| swap(&mut over.contacts[i]));
+    assert_eq!(material(&over, "R001"), "rods that end under");
+}
+
+#[test]
+fn rods_are_round_and_taper_and_stand_level_on_the_ground() {
     let mut s = structure();
     s.rods[1].diameter = Some([6.0, 4.0].into());
     s.rods[2].diameter = Some([3.0, 2.0].into());
     s.rods[3].diameter = Some([4.0, 6.0].into());
-    let bytes = glb(&s).unwrap();
-    let gltf = Gltf::from_slice(&bytes).unwrap();
-    assert_eq!((gltf.accessors().count(), gltf.meshes().count()), (9, 3));
+    s.supports.remove(4);
+    let gltf = Gltf::from_slice(&glb(&s).unwrap()).unwrap();
     let buffers = [gltf.blob.clone().unwrap()];
     for rod in &s.rods {
         let n = node(&gltf, &rod.id);
         let matrix: Matrix4<f32> = n.transform().matrix().into();
         let primitive = n.mesh().unwrap().primitives().next().unwrap();
         let reader = primitive.reader(|b| buffers.get(b.index()).map(Vec::as_slice));
+        let (mut low, mut level) = (f64::MAX, 0);
         for p in reader.read_positions().unwrap() {
             let place = back(matrix.transform_point(&p.into()));
             let [a, b] = [rod.a, rod.b].map(Point3::from);
@@ -81,11 +116,30 @@ fn rods_that_taper_alike_share_a_cone() {
             let [d, e] = s.diameters(rod);
             let radius = d / 2.0 + (e - d) / 2.0 * along / rod.length;
             assert!((off - radius).abs() < 1e-3, "{}: {off} {radius}", rod.id);
+            low = low.min(place.z);
+            level += usize::from((place.z - s.ground).abs() < 1e-3);
         }
+        let stands = s.supports.iter().any(|support| support.rod == rod.id);
+        // Every corner is there twice, for the side and for the end.
+        assert_eq!(level, if stands { 48 } else { 0 }, "{}", rod.id);
+        assert_eq!(low >= s.ground - 1e-3, stands, "a square end reaches below: {low}");
     }
     let extras = node(&gltf, "R002").extras().clone().unwrap();
     let figures: serde_json::Value = serde_json::from_str(extras.get()).unwrap();
     assert_eq!(figures["diameter_mm"], serde_json::json!([6.0, 4.0]));
+}
+
+#[test]
+fn the_text_form_holds_the_same() {
+    let s = structure();
+    let binary = Gltf::from_slice(&glb(&s).unwrap()).unwrap();
+    let text = Gltf::from_slice(gltf(&s).unwrap().as_bytes()).unwrap();
+    let names = |g: &Gltf| g.nodes().map(|n| n.name().unwrap().to_owned()).collect::<Vec<_>>();
+    assert_eq!(names(&binary), names(&text));
+    let length = binary.blob.unwrap().len();
+    let buffer = text.buffers().next().unwrap();
+    let gltf::buffer::Source::Uri(uri) = buffer.source() else { panic!("an address") };
+    assert!(uri.starts_with("data:") && buffer.length() <= length);
 }
 
 #[test]
@@ -122,6 +176,13 @@ fn figures_stand_in_the_extras() {
     assert_eq!(rod["length_mm"], rounded(s.rods[0].length, 6));
     assert_eq!((&rod["class"], &rod["support"]), (&"A".into(), &"A".into()));
     assert_eq!(rod["contacts"].as_array().unwrap().len(), 2);
+    let mark = &rod["marks"][0];
+    let contact = s.contact(mark["contact"].as_str().unwrap()).unwrap();
+    assert_eq!((&mark["side"], &mark["partner"]), (&"under".into(), &contact.over.as_str().into()));
+    assert_eq!(mark["at_mm"], rounded(contact.at_under, 6));
+    let support = figures("S001-R001-A");
+    let sum = |a: &str, b: &str| support[a].as_f64().unwrap() + support[b].as_f64().unwrap();
+    assert!((sum("elevation_deg", "bevel_deg") - 90.0).abs() < 1e-5);
     let contact = figures("C0001");
     assert_eq!((&contact["over"], &contact["under"]), (&"R001".into(), &"R002".into()));
     assert_eq!(figures("structure")["rods"], 5);
