@@ -6,11 +6,11 @@
 //! with is that of the paper (Table 1, closing only), whose contacts stay some thousandths of
 //! a diameter open; `error` is that of the worst contact here, in diameters.
 
+mod dome;
 mod measure;
 
+use dome::{Dome, dome_edge};
 use measure::{forget_peak, least, ms, peak_memory};
-use nalgebra::Point2;
-use rodwright::chart::{Chart, SurfacePoint};
 use rodwright::frame::canvas::{Canvas, PlaneCanvas};
 use rodwright::frame::close::{Way, project};
 use rodwright::frame::form::{FormSettings, form, median_rise};
@@ -48,30 +48,6 @@ const MOST_RODS: f64 = 1e5;
 const RUNS: usize = 7;
 const BUDGET: Duration = Duration::from_secs(3);
 
-/// A dome: the part of a sphere of this radius, mm, whose stereographic picture lies within a
-/// disk of this part of it.
-struct Dome {
-    radius: f64,
-    part: f64,
-}
-
-impl Chart for Dome {
-    fn bounds(&self) -> [Point2<f64>; 2] {
-        let r = self.radius * self.part;
-        [Point2::new(-r, -r), Point2::new(r, r)]
-    }
-
-    fn lift(&self, p: Point2<f64>) -> Option<SurfacePoint> {
-        let q = p.coords / self.radius;
-        let far = q.norm_squared();
-        // The plane touches the sphere at the top; from the opposite pole it is twice as far.
-        let down = 1.0 + far / 4.0;
-        let normal = nalgebra::Vector3::new(q.x, q.y, 1.0 - far / 4.0) / down;
-        (far <= self.part * self.part)
-            .then(|| SurfacePoint { position: (normal * self.radius).into(), normal })
-    }
-}
-
 fn main() {
     let most = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(MOST_RODS);
     println!(
@@ -101,9 +77,7 @@ fn row(rods: f64, paper: Option<f64>, last: Option<(f64, f64)>) -> (f64, f64) {
     let dome = Dome { radius: 300.0, part: 1.0 };
     let pattern = Pattern::named("4.4.4.4").expect("4.4.4.4 is in the library");
     let shape = pattern.usual();
-    // Two rods a tile, and some less at the rim.
-    let area = std::f64::consts::PI * (dome.radius * dome.part).powi(2);
-    let edge = (2.0 * area / rods).sqrt() * (1.0 - 0.9 / rods.sqrt());
+    let edge = dome_edge(&dome, rods);
     let placement = Placement { origin: [0.0; 2].into(), rotation: 0.0, edge };
     forget_peak();
     let canvas = PlaneCanvas::new(&dome, pattern, placement, shape).expect("under a million");

@@ -10,8 +10,9 @@ use crate::sheets::{Document, TextError, document_title, handout, notes};
 use crate::sheets::{
     Sheet, SheetError, SheetSettings, footprint, histogram_pairs, histograms, relaxing_pairs,
 };
-use crate::sheets::{pictures, sheets, support_map};
+use crate::sheets::{pictures, sheets, step_sheets, support_map};
 use crate::shop::lengths::classes;
+use crate::write::assembly::assembly_json;
 use crate::write::cutlist::{cutlist_csv, cutlist_json};
 use crate::write::glb::{GlbError, glb};
 use crate::write::report::{self, Report};
@@ -33,10 +34,11 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
     let mut stock: Vec<f64> = model.plan.shopping().iter().map(|p| p.length).collect();
     stock.sort_by(|a, b| b.total_cmp(a));
     stock.dedup();
+    let order = model.assembly.as_ref().map(|assembly| assembly.order);
     let mut files = Files::default();
     files.add("structure.json", structure.to_json()?);
     files.add("report.json", report(design, model).to_json()?);
-    files.add("design.toml", design.to_toml(&model.fit, &stock));
+    files.add("design.toml", design.to_toml(&model.fit, &stock, order));
     if design.wants(Part::Csv) {
         files.add("rods.csv", tables::rods(frame, &classes)?);
         files.add("contacts.csv", tables::contacts(frame)?);
@@ -48,6 +50,9 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
     if design.wants(Part::Cutlist) {
         files.add("cutlist.json", cutlist_json(&model.plan, design.density)?);
         files.add("cutlist.csv", cutlist_csv(&model.plan, &classes)?);
+    }
+    if let (Some(assembly), true) = (&model.assembly, design.wants(Part::Assembly)) {
+        files.add("assembly.json", assembly_json(assembly)?);
     }
     if design.wants(Part::Glb) {
         files.add("model.glb", glb(&structure)?);
@@ -63,6 +68,10 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
         let settings = sheet_settings(design, model)?;
         let sheets = handout::pages(frame, &model.plan, &design.tiles.name(), &settings)?;
         files.add("handout.pdf", bound(sheets, design, Document::Handout)?);
+    }
+    if let (Some(assembly), true) = (&model.assembly, design.wants(Part::Steps)) {
+        let sheets = step_sheets(frame, assembly, &sheet_settings(design, model)?)?;
+        files.add("steps.pdf", bound(sheets, design, Document::Steps)?);
     }
     if design.wants(Part::SupportMap) {
         add_support_map(design, model, &mut files)?;
@@ -108,6 +117,7 @@ fn report(design: &Design, model: &Model) -> Report {
         measures: model.measures.clone(),
         arrangement,
         tied,
+        assembly: model.assembly.as_ref().map(report::assembly),
         sawing: report::sawing(&model.plan, design.density),
         shared_lengths: model.formed.shared.as_ref().map(report::shared),
         as_built: model.as_built.as_ref().map(report::as_built),
@@ -119,7 +129,8 @@ fn report(design: &Design, model: &Model) -> Report {
 fn add_sheets(design: &Design, model: &Model, files: &mut Files) -> Result<(), DocumentError> {
     let plane = model.footprint.as_ref();
     let settings = sheet_settings(design, model)?;
-    let sheets = sheets(&model.formed.frame, &model.measures, plane, &model.plan, &settings)?;
+    let (frame, assembly) = (&model.formed.frame, model.assembly.as_ref());
+    let sheets = sheets(frame, &model.measures, plane, &model.plan, assembly, &settings)?;
     add_pages("sheets", sheets, (design, Document::Sheets), files)
 }
 

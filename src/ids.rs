@@ -80,6 +80,10 @@ id!(
     /// An RF-unit, printed `U001`.
     UnitId, "U", 3
 );
+id!(
+    /// A prop that holds a rod up while the frame is put together, printed `P01`.
+    PropId, "P", 2
+);
 
 /// A vector whose positions are of one index type.
 #[derive(Clone, PartialEq, Debug)]

@@ -12,7 +12,7 @@ pub struct Progress {
 }
 
 /// Steps in the order in which they come.
-const STEPS: u64 = 9;
+const STEPS: u64 = 10;
 
 impl Progress {
     /// Shows itself on a terminal unless `quiet`.
@@ -59,6 +59,7 @@ fn doing(step: Step) -> &'static str {
         Step::Measure => "measuring",
         Step::Tolerance => "trying errors of marks",
         Step::Saw => "planning the cuts",
+        Step::Order => "ordering the steps",
         Step::Draw => "drawing the papers",
         Step::Write => "writing the folder",
     }

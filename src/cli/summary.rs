@@ -11,7 +11,7 @@ use crate::frame::tolerance::{Misfit, Tolerance};
 use crate::ids::RodId;
 use crate::pipeline::Model;
 use crate::shop::lengths::diameters;
-use crate::shop::{Aim, CutPlan, Purchase};
+use crate::shop::{Aim, Assembly, CutPlan, Order, Purchase};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -48,6 +48,7 @@ pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) 
         ),
         ("left out", left_out(model)),
     ]);
+    rows.extend(model.assembly.as_ref().map(|assembly| ("assembly", put_together(assembly))));
     rows.extend(model.as_built.as_ref().map(|what| ("as built", as_built(what))));
     rows.extend(model.misfit.as_ref().map(|misfit| ("tolerance", tolerance(misfit))));
     let mut text = String::new();
@@ -206,6 +207,26 @@ fn to_be_tied(model: &Model) -> String {
         1 => "1 contact, where the end of a rod hangs below the other".into(),
         n => format!("{n} contacts, where the end of a rod hangs below the other"),
     }
+}
+
+/// In which order the frame is put together, and what that takes.
+fn put_together(assembly: &Assembly) -> String {
+    let from = match assembly.order {
+        Order::Crown => "from the crown outward",
+        Order::Ground => "from the ground up",
+    };
+    let props = match (assembly.props(), assembly.most_props()) {
+        (0, _) => "no props".into(),
+        (1, _) => "1 prop".into(),
+        (all, most) if all == most => format!("{all} props"),
+        (all, most) => format!("{all} props, {most} at a time"),
+    };
+    let missed = match assembly.missed.len() {
+        0 => String::new(),
+        n => format!("; it needs a stand where the last {n} are"),
+    };
+    let steps = assembly.steps.len();
+    format!("{from} in {steps} steps, {props}; {} times a rod is lifted{missed}", assembly.lifts())
 }
 
 fn left_out(model: &Model) -> String {

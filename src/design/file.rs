@@ -3,13 +3,14 @@
 use super::{Design, Tiles};
 use crate::frame::fit::Fit;
 use crate::frame::share::Share;
+use crate::shop::Order;
 use serde::Serialize;
 use std::fmt::Write as _;
 
 impl Design {
     /// The design as a file that repeats the run: every setting as it was used, with
     /// what was found for those left open in comments.
-    pub fn to_toml(&self, fit: &Fit, found_stock: &[f64]) -> String {
+    pub fn to_toml(&self, fit: &Fit, found_stock: &[f64], found_order: Option<Order>) -> String {
         let mut file = TomlFile::default();
         file.text.push_str(
             "# Every setting as it was used; `rodwright build --design` repeats the run.\n",
@@ -20,6 +21,7 @@ impl Design {
         file.set("layer", choice(self.layer));
         file.set("close", choice(self.close));
         self.stock_settings(&mut file, found_stock);
+        self.order_settings(&mut file, found_order);
         file.set("paper", self.paper.to_string());
         file.set("units", choice(self.units));
         file.set("language", choice(self.language));
@@ -45,6 +47,18 @@ impl Design {
         // What follows a table belongs to it, so it comes last.
         self.rod_table(&mut file);
         file.text
+    }
+
+    /// In which order the frame is put together.
+    fn order_settings(&self, file: &mut TomlFile, found: Option<Order>) {
+        match (self.order.order, found) {
+            (Some(order), _) => file.set("order", choice(order)),
+            (None, Some(found)) => file.note(&format!("order was chosen: {}", found.code())),
+            (None, None) => {}
+        }
+        if let Some(most) = self.order.step_rods {
+            file.set("step_rods", most as i64);
+        }
     }
 
     /// What rods are sawn from, and to.

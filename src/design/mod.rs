@@ -29,7 +29,7 @@ use crate::frame::tolerance::Tolerance;
 use crate::pattern::{Pattern, PatternError, ShapeError};
 use crate::sheets::labels::LabelSettings;
 use crate::sheets::{Language, Paper, PaperUnits, TextError, Texts};
-use crate::shop::Stock;
+use crate::shop::{OrderSettings, Stock};
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
 use crate::surface::up::Up;
@@ -51,6 +51,11 @@ pub enum Part {
     Csv,
     /// cutlist.json, cutlist.csv
     Cutlist,
+    /// assembly.json
+    Assembly,
+    /// steps.pdf: the pages of the assembly steps alone; only where it is named, since
+    /// sheets.pdf has them
+    Steps,
     /// model.glb
     Glb,
     /// sheets.pdf, sheets/*.svg
@@ -67,10 +72,12 @@ pub enum Part {
     Pictures,
 }
 
-const ALL_PARTS: [Part; 10] = [
+/// What is written where nothing is named.
+const ALL_PARTS: [Part; 11] = [
     Part::Structure,
     Part::Csv,
     Part::Cutlist,
+    Part::Assembly,
     Part::Glb,
     Part::Sheets,
     Part::Labels,
@@ -174,6 +181,8 @@ pub struct Design {
     pub round: f64,
     /// How rods share lengths.
     pub share: Share,
+    /// In which order it is put together.
+    pub order: OrderSettings,
     /// Paper size.
     pub paper: Paper,
     /// Unit on paper.

@@ -7,7 +7,7 @@ use crate::frame::tolerance::Tolerance;
 use crate::pattern::{Pattern, Shape, library};
 use crate::sheets::Texts;
 use crate::sheets::labels::LabelSettings;
-use crate::shop::{Offer, Stock};
+use crate::shop::{Offer, OrderSettings, Stock};
 use crate::tiling::conway::Notation;
 use crate::units::{Angle, Length};
 use std::path::{Path, PathBuf};
@@ -74,6 +74,7 @@ impl Settings {
             density: self.density()?,
             share: self.share()?,
             round: not_negative("round", self.round)?.unwrap_or(DEFAULT_ROUND),
+            order: self.ordered()?,
             paper: self.paper.unwrap_or_default(),
             units: self.units.unwrap_or_default(),
             language,
@@ -141,6 +142,14 @@ impl Settings {
             (Some(n), None) => Ok(Share::Classes(n)),
             (None, Some(tolerance)) => Ok(Share::Tolerance(tolerance)),
             (None, None) => Ok(Share::Off),
+        }
+    }
+
+    /// In which order the frame is put together.
+    fn ordered(&self) -> Result<OrderSettings, DesignError> {
+        match self.step_rods {
+            Some(0) => Err(setting("step_rods", 0, "a step places at least one rod")),
+            step_rods => Ok(OrderSettings { order: self.order, step_rods }),
         }
     }
 

@@ -8,6 +8,7 @@ use crate::frame::layer::Layering;
 use crate::frame::relax::Relax;
 use crate::sheets::labels::LabelMedium;
 use crate::sheets::{Language, Paper, PaperUnits};
+use crate::shop::Order;
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
 use crate::surface::up::Up;
@@ -145,6 +146,16 @@ pub struct Settings {
     #[arg(long, value_name = "LENGTH")]
     pub class_tolerance: Option<Length>,
 
+    /// Assembly: from the middle outward on a table, or from the feet up with props [default:
+    /// crown, if it needs no props]
+    #[arg(long, value_enum)]
+    pub order: Option<Order>,
+
+    /// The most rods that a step of the assembly places; in crown order rods that only hold
+    /// each other stay together [default: those of a unit]
+    #[arg(long, value_name = "NUMBER")]
+    pub step_rods: Option<usize>,
+
     /// Paper: a4, a3, letter, tabloid, or width x height such as 300x200mm [default: a4]
     #[arg(long, value_name = "PAPER")]
     pub paper: Option<Paper>,
@@ -243,6 +254,8 @@ impl Settings {
             round: self.round.or(other.round),
             classes: self.classes.or(other.classes.filter(|_| !shares)),
             class_tolerance: self.class_tolerance.or(other.class_tolerance.filter(|_| !shares)),
+            order: self.order.or(other.order),
+            step_rods: self.step_rods.or(other.step_rods),
             paper: self.paper.or(other.paper),
             units: self.units.or(other.units),
             language: self.language.or(other.language),

@@ -82,6 +82,9 @@ pub enum BuildError {
     /// What errors of marks and diameters do.
     #[error("what marks that are off do cannot be found: {0}")]
     Tolerance(LinalgError),
+    /// The assembly order.
+    #[error("the order of assembly cannot be found: {0}")]
+    Order(LinalgError),
     /// The sawing plan.
     #[error("{0}. {hint}", hint = sentence(&.0.hint()))]
     Cut(#[from] CutError),

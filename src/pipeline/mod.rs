@@ -8,6 +8,7 @@ pub use error::{BuildError, UNEVEN_ADVICE};
 
 use crate::chart::PlanarChart;
 use crate::design::{Design, MeasuredTable, Sphere, Tiles};
+use crate::frame::arrangement::arrangement;
 use crate::frame::as_built::{AsBuilt, Cutting, as_built};
 use crate::frame::canvas::{Canvas, MeshTiles, PlaneCanvas, SphereTiles};
 use crate::frame::fit::{Fit, FitBy, fit};
@@ -22,6 +23,7 @@ use crate::ids::RodId;
 use crate::pattern::{Pattern, Shape};
 use crate::shop::lengths::sticks;
 use crate::shop::saw::{CutPlan, Offer, plan_some};
+use crate::shop::{Assembly, assembly};
 use crate::surface::prepare::{Prepared, prepare, prepare_polygons};
 use crate::surface::read::{read, read_polygons};
 use crate::surface::topology::require_chartable;
@@ -52,6 +54,8 @@ pub struct Model {
     pub misfit: Option<Misfit>,
     /// The sawing plan; without sticks that are sawn.
     pub plan: CutPlan,
+    /// In which order it is put together; of models that are only tried, none.
+    pub assembly: Option<Assembly>,
 }
 
 /// The steps of a run, as they begin.
@@ -75,6 +79,8 @@ pub enum Step {
     Tolerance,
     /// Planning the saw cuts.
     Saw,
+    /// Finding the order in which it is put together.
+    Order,
     /// Drawing and encoding the documents.
     Draw,
     /// Writing the folder.
@@ -95,6 +101,10 @@ pub fn build(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, Buil
         let frame = &model.formed.frame;
         model.misfit = misfit(frame, tolerance, design.seed).map_err(BuildError::Tolerance)?;
     }
+    begin(Step::Order);
+    let tied = arrangement(&model.formed).tied;
+    let assembly = assembly(&model.formed.frame, &tied, design.order);
+    model.assembly = Some(assembly.map_err(BuildError::Order)?);
     Ok(model)
 }
 
@@ -303,6 +313,7 @@ fn finish(
         as_built: None,
         misfit: None,
         plan,
+        assembly: None,
     })
 }
 

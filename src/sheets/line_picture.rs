@@ -35,14 +35,15 @@ const FARTHEST: f64 = 150.0;
 const SAME_END: f64 = 1e-6;
 
 /// A rod in the picture, mm, y down.
-struct Line {
-    ends: [Point; 2],
+#[derive(Clone)]
+pub(super) struct Line {
+    pub ends: [Point; 2],
     /// Nearness to the eye at both ends.
-    depth: [f64; 2],
+    pub depth: [f64; 2],
     /// Width at both ends.
-    widths: [f64; 2],
+    pub widths: [f64; 2],
     /// Stretches that are hidden, as shares of the line.
-    hidden: Vec<[f64; 2]>,
+    pub hidden: Vec<[f64; 2]>,
 }
 
 impl Line {
@@ -55,7 +56,7 @@ impl Line {
         x.hypot(y)
     }
 
-    fn at(&self, share: f64) -> Point {
+    pub fn at(&self, share: f64) -> Point {
         let [x, y] = self.direction();
         [self.ends[0][0] + x * share, self.ends[0][1] + y * share]
     }
@@ -64,12 +65,12 @@ impl Line {
         self.depth[0] + (self.depth[1] - self.depth[0]) * share
     }
 
-    fn width_at(&self, share: f64) -> f64 {
+    pub fn width_at(&self, share: f64) -> f64 {
         diameter_at(self.widths, share).max(THINNEST)
     }
 
     /// The stretches that are seen, as shares of the line.
-    fn visible(&mut self) -> Vec<[f64; 2]> {
+    pub fn visible(&mut self) -> Vec<[f64; 2]> {
         self.hidden.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let mut seen = Vec::new();
         let mut done = 0.0f64;
@@ -132,18 +133,27 @@ fn thinned(points: impl Iterator<Item = Point>) -> Vec<Point> {
 fn hide(lines: &mut [Line]) {
     for i in 0..lines.len() {
         for j in i + 1..lines.len() {
-            let Some(([s, t], sine)) = crossing(&lines[i], &lines[j]) else { continue };
-            let behind = lines[i].depth_at(s) < lines[j].depth_at(t);
-            let ((far, at), (near, by)) = if behind { ((i, s), (j, t)) } else { ((j, t), (i, s)) };
-            let (width, front) = (lines[far].width_at(at), lines[near].width_at(by));
-            let clear = front / 2.0 + CLEAR.max(CLEAR_WIDTHS * front);
-            let sine = sine.max(GRAZING);
-            // To the clear edge of the near rod, and on until the far rod's corner is past it.
-            let half = (clear + width / 2.0 * (1.0 - sine * sine).sqrt()) / sine;
-            let half = half / lines[far].length();
-            lines[far].hidden.push([at - half, at + half]);
+            if let Some((second, stretch)) = covered(&lines[i], &lines[j]) {
+                lines[if second { j } else { i }].hidden.push(stretch);
+            }
         }
     }
+}
+
+/// What the farther of two lines loses where they cross: whether that is the second one, and
+/// the stretch as shares of it.
+pub(super) fn covered(first: &Line, second: &Line) -> Option<(bool, [f64; 2])> {
+    let ([s, t], sine) = crossing(first, second)?;
+    let behind = first.depth_at(s) < second.depth_at(t);
+    let ((far, at), (near, by)) =
+        if behind { ((first, s), (second, t)) } else { ((second, t), (first, s)) };
+    let (width, front) = (far.width_at(at), near.width_at(by));
+    let clear = front / 2.0 + CLEAR.max(CLEAR_WIDTHS * front);
+    let sine = sine.max(GRAZING);
+    // To the clear edge of the near rod, and on until the far rod's corner is past it.
+    let half = (clear + width / 2.0 * (1.0 - sine * sine).sqrt()) / sine;
+    let half = half / far.length();
+    Some((!behind, [at - half, at + half]))
 }
 
 /// Where two lines cross, as shares of both, and the sine of the angle between them.

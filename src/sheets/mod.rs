@@ -1,9 +1,9 @@
 //! The papers of the workshop: pages made of drawings.
 //!
 //! [`sheets`] gives the pages of the workshop document: cover, figures, parts, cut list with
-//! sawing plan, rod cards and the table of feet. [`histograms`] shows some of the figures. [`support_map`] gives the map of the feet at
-//! full size, in one piece and tiled over pages, [`footprint`] the surface laid flat, [`labels`]
-//! a label for each rod.
+//! sawing plan, rod cards, the steps of assembly and the table of feet. [`histograms`] shows
+//! some of the figures. [`support_map`] gives the map of the feet at full size, in one piece and
+//! tiled over pages, [`footprint`] the surface laid flat, [`labels`] a label for each rod.
 //! [`pattern_picture`], [`pattern_sheet`] and [`contact_sheet`] show what there is to choose
 //! from. Nothing here writes files: pages are rendered by [`drawing::pdf`](crate::drawing::pdf) and [`drawing::svg`](crate::drawing::svg).
 
@@ -27,6 +27,11 @@ mod pattern_picture;
 mod pattern_sheet;
 mod pictures;
 mod rod_cards;
+mod step_labels;
+mod step_picture;
+mod step_text;
+mod step_views;
+mod steps;
 mod strip;
 pub mod support_map;
 mod support_tiles;
@@ -50,7 +55,7 @@ use crate::drawing::DrawingError;
 use crate::frame::Frame;
 use crate::frame::footprint::Footprint;
 use crate::frame::measure::Measures;
-use crate::shop::CutPlan;
+use crate::shop::{Assembly, CutPlan};
 use text::message::Message;
 
 /// How the papers look.
@@ -105,6 +110,7 @@ pub fn sheets(
     measures: &Measures,
     plane: Option<&Footprint>,
     plan: &CutPlan,
+    assembly: Option<&Assembly>,
     settings: &SheetSettings,
 ) -> Result<Vec<Sheet>, SheetError> {
     let settings = settings.checked()?;
@@ -116,7 +122,24 @@ pub fn sheets(
     }
     leaves.extend(cut_list::cut_list(frame, plan, &settings)?);
     leaves.extend(rod_cards::rod_cards(frame, &settings)?);
+    if let Some(assembly) = assembly {
+        leaves.extend(steps::steps(frame, assembly, &settings)?);
+    }
     leaves.extend(support_tiles::overview(frame, &settings)?);
+    page::stamp(leaves, &settings.format().diameters(frame), &settings)
+}
+
+/// The pages of the assembly steps alone, numbered by themselves.
+///
+/// # Errors
+/// As [`sheets`].
+pub fn step_sheets(
+    frame: &Frame,
+    assembly: &Assembly,
+    settings: &SheetSettings,
+) -> Result<Vec<Sheet>, SheetError> {
+    let settings = settings.checked()?;
+    let leaves = steps::steps(frame, assembly, &settings)?;
     page::stamp(leaves, &settings.format().diameters(frame), &settings)
 }
 

@@ -15,6 +15,7 @@ messages! {
         "facts" => Facts { diameters: String, scale: String, inches: bool }
         "sheets" => Sheets { model: String }
         "support-map" => SupportMap { model: String }
+        "steps" => Steps { model: String }
         "labels" => Labels { model: String }
         "handout" => Handout { model: String }
         "handout-title" => HandoutTitle {}
@@ -58,6 +59,8 @@ pub enum Document {
     Sheets,
     /// The map of the feet.
     SupportMap,
+    /// The steps of assembly alone.
+    Steps,
     /// The labels of the rods.
     Labels,
     /// The handout for a class.
@@ -73,6 +76,7 @@ pub fn document_title(document: Document, model: &str, texts: &Texts) -> Result<
     match document {
         Document::Sheets => texts.say(say::Sheets { model }),
         Document::SupportMap => texts.say(say::SupportMap { model }),
+        Document::Steps => texts.say(say::Steps { model }),
         Document::Labels => texts.say(say::Labels { model }),
         Document::Handout => texts.say(say::Handout { model }),
     }

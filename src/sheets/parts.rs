@@ -13,6 +13,10 @@ use crate::shop::{LengthClass, classes};
 
 /// Least height of a line, mm; thick rods need more.
 const LINE: f64 = 5.2;
+/// It is less than that, down to this, where all rods then stand on one page, mm.
+const LEAST_LINE: f64 = 4.4;
+/// What sums of heights may be off, mm.
+const ROUNDING: f64 = 1e-6;
 /// White above and below the picture of a rod, mm.
 const ABOVE: f64 = 0.8;
 /// Between columns, mm.
@@ -81,10 +85,13 @@ pub(super) fn parts(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Leaf>
         total: format.total(total),
     })?)?;
     head(&mut flow, &grid, &heads);
+    let line = flow.room() / classes.len() as f64;
+    let line = if line < LEAST_LINE { LINE } else { line.min(LINE) };
     for class in &classes {
         let thickness = class.diameters.map(|d| (d / n).max(THINNEST));
-        let height = (thickness[0].max(thickness[1]) + 2.0 * ABOVE).max(LINE);
-        if height > flow.room() {
+        let height = (thickness[0].max(thickness[1]) + 2.0 * ABOVE).max(line);
+        // Lines that fill the page to its end still fit, but for rounding.
+        if height > flow.room() + ROUNDING {
             flow.turn_page();
             head(&mut flow, &grid, &heads);
         }
@@ -94,7 +101,7 @@ pub(super) fn parts(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Leaf>
         flow.skip(height);
         rule(&mut flow, FAINT);
     }
-    Ok(flow.finish(Some(&format!("1:{n}"))))
+    Ok(flow.finish(Some(&format!("1:{}", format.plain(n)))))
 }
 
 /// What stands before the picture of a class.

@@ -3,10 +3,10 @@
 use super::rod_cards::Book;
 use super::*;
 use crate::drawing::pdf::{DocumentInfo, render};
-use crate::drawing::{Drawing, Figure, Item, Rect, Shape, Text};
+use crate::drawing::{Dash, Drawing, Figure, Item, Rect, Shape, Text, bounds, crosses};
 use crate::ids::{Id, RodId};
 use crate::shop::lengths::sticks;
-use crate::shop::{Stock, feet, fixture, marks, saw};
+use crate::shop::{OrderSettings, Stock, assembly, feet, fixture, marks, saw};
 use std::sync::LazyLock;
 
 static LAID: LazyLock<(Frame, Footprint, Measures)> =
@@ -30,7 +30,9 @@ fn pages_of(frame: &Frame, paper: Paper, units: PaperUnits) -> Vec<Sheet> {
 }
 
 fn pages_with(frame: &Frame, settings: &SheetSettings) -> Vec<Sheet> {
-    let mut all = sheets(frame, &LAID.2, Some(&LAID.1), &cut_plan(frame), settings).unwrap();
+    let assembly = assembly(frame, &[], OrderSettings::default()).unwrap();
+    let plan = cut_plan(frame);
+    let mut all = sheets(frame, &LAID.2, Some(&LAID.1), &plan, Some(&assembly), settings).unwrap();
     all.extend(support_map::pages(frame, settings).unwrap());
     all
 }
@@ -79,7 +81,7 @@ fn texts_stay_on_the_page_and_apart() {
     for frame in [&*IGLOO, &station, &circuit, &huge()] {
         for (paper, units) in [
             (Paper::A4, PaperUnits::Mm),
-            (Paper::Letter, PaperUnits::Inch),
+            (Paper::Letter, PaperUnits::ThirtySeconds),
             (small, PaperUnits::Mm),
         ] {
             for language in Language::ALL {
@@ -111,7 +113,9 @@ fn german_papers_are_german() {
     ];
     let mut words = 0;
     for text in drawings.flat_map(texts) {
-        for word in text.string.split(|c: char| !c.is_alphanumeric()) {
+        // Names of options are English everywhere.
+        let said = text.string.replace("--unit", "");
+        for word in said.split(|c: char| !c.is_alphanumeric()) {
             let known = english.contains(&word.to_lowercase().as_str());
             assert!(!known, "`{word}` in {:?}", text.string);
             words += 1;
@@ -149,6 +153,63 @@ fn every_rod_is_in_the_range_of_one_page() {
         next += shown.len();
     }
     assert_eq!(next, IGLOO.rods.len());
+}
+
+/// Every class is there once with its number of rods, and its picture is to scale.
+#[test]
+fn parts_are_drawn_to_one_scale() {
+    let mut tapered = IGLOO.clone();
+    for rod in tapered.rods.ids() {
+        tapered.rods[rod].diameters = [40.0, 30.0];
+    }
+    for frame in [&*IGLOO, &tapered, &fixture::circuit(5, 8.0)] {
+        let settings = settings(Paper::A4, PaperUnits::Mm);
+        let leaves = parts::parts(frame, &settings).unwrap();
+        let scale: f64 = leaves[0].scale.as_ref().unwrap()[2..].parse().unwrap();
+        let rods: Vec<Rect> = leaves
+            .iter()
+            .flat_map(|leaf| leaf.drawing.items())
+            .filter_map(|item| match item {
+                Item::Figure(Figure { shape: Shape::Area(_), .. }) => bounds([item]),
+                _ => None,
+            })
+            .collect();
+        let classes = crate::shop::classes(frame);
+        assert_eq!(rods.len(), classes.len());
+        for (rod, class) in rods.iter().zip(&classes) {
+            assert!((rod.width() * scale - class.length).abs() < 1e-6);
+            let thick = class.diameters[0].max(class.diameters[1]);
+            assert!(rod.height() * scale >= thick - 1e-6);
+            assert!(thick / scale < 0.5 || (rod.height() * scale - thick).abs() < 1e-6);
+        }
+        let said: Vec<&str> =
+            leaves.iter().flat_map(|l| texts(&l.drawing)).map(|t| t.string.as_str()).collect();
+        let counts: usize =
+            said.iter().filter_map(|t| t.strip_suffix(" ×")?.parse::<usize>().ok()).sum();
+        assert_eq!(counts, frame.rods.len());
+    }
+}
+
+/// What the rods are and where to stop stands above the bars of every page.
+#[test]
+fn stops_are_said_again_where_bars_that_are_alike_go_on_the_next_page() {
+    let mut frame = fixture::circuit(3, 3.0);
+    let rod = crate::frame::Rod { contacts: Vec::new(), ..frame.rods[RodId::new(0)].clone() };
+    while frame.rods.len() < 600 {
+        frame.rods.push(rod.clone());
+    }
+    let settings = settings(Paper::A4, PaperUnits::Mm);
+    let plan = cut_plan(&frame);
+    let leaves = cut_list::cut_list(&frame, &plan, &settings).unwrap();
+    let mut pages = 0;
+    for leaf in &leaves {
+        let bars = texts(&leaf.drawing).find(|t| t.string.starts_with("bar "));
+        let Some(bar) = bars else { continue };
+        let stops = texts(&leaf.drawing).find(|t| t.string == "stop at");
+        assert!(stops.is_some_and(|stop| stop.at[1] < bar.at[1] + 1e-9), "{}", leaf.stem);
+        pages += 1;
+    }
+    assert!(pages >= 2, "{pages} pages");
 }
 
 #[test]
@@ -284,6 +345,40 @@ fn rods_of_other_diameters_are_told_apart_on_every_paper() {
     assert_eq!(radii[..feet.len()], feet);
 }
 
+/// Numbers of feet lie on no chord and, on the small map, on no line between tiles.
+#[test]
+fn numbers_of_feet_keep_off_the_lines() {
+    let station = fixture::on_sample("train-station", "3.3.3.4.4");
+    for frame in [&*IGLOO, &station] {
+        let settings = settings(Paper::A4, PaperUnits::Mm);
+        let map = support_map::drawing(frame, &settings).unwrap();
+        let overview = &support_tiles::overview(frame, &settings).unwrap()[0].drawing;
+        for (drawing, names) in [(&map, "support map"), (overview, "overview")] {
+            let numbers: Vec<Rect> = texts(drawing)
+                .filter(|t| frame.supports.iter().any(|s| s.rod.to_string() == t.string))
+                .filter(|t| t.anchor == crate::drawing::Anchor::Middle)
+                .map(|t| t.extent().unwrap())
+                .collect();
+            assert!(numbers.len() + 2 >= frame.supports.len(), "{names}: {}", numbers.len());
+            let is_chord = |item: &&Item| match item {
+                Item::Figure(f) => f.paint.stroke.is_some_and(|s| s.dash == Dash::DASH_DOT),
+                Item::Text(_) => false,
+            };
+            let chords: Vec<[[f64; 2]; 2]> = drawing
+                .items()
+                .filter(is_chord)
+                .filter_map(|item| match item {
+                    Item::Figure(Figure { shape: Shape::Line(a, b), .. }) => Some([*a, *b]),
+                    _ => None,
+                })
+                .collect();
+            assert_eq!(chords.len(), frame.supports.len(), "{names}");
+            let on = |number: &&Rect| chords.iter().any(|&c| crosses(c, **number));
+            assert_eq!(numbers.iter().filter(on).count(), 0, "{names}");
+        }
+    }
+}
+
 /// Each foot is whole on some tile, and tiles agree on where it is.
 #[test]
 fn every_foot_is_on_a_tile_at_full_size() {
@@ -366,12 +461,12 @@ fn pages_are_named_in_order_and_render() {
     let frame = fixture::circuit(4, 3.0);
     let settings =
         SheetSettings { model: "家 igloo\n".to_owned(), ..settings(Paper::A4, PaperUnits::Mm) };
-    let pages = sheets(&frame, &LAID.2, None, &cut_plan(&frame), &settings).unwrap();
+    let pages = sheets(&frame, &LAID.2, None, &cut_plan(&frame), None, &settings).unwrap();
     let stems: Vec<&str> = pages.iter().map(|s| s.stem.as_str()).collect();
     let expected =
         ["01-cover", "02-figures", "03-parts", "04-cut-list", "05-rod-cards", "06-support-map"];
     assert_eq!(stems, expected);
-    let laid = sheets(&frame, &LAID.2, Some(&LAID.1), &cut_plan(&frame), &settings).unwrap();
+    let laid = sheets(&frame, &LAID.2, Some(&LAID.1), &cut_plan(&frame), None, &settings).unwrap();
     let stems: Vec<&str> = laid.iter().map(|s| s.stem.as_str()).collect();
     let mut expected = expected.map(|stem| stem[3..].to_owned()).to_vec();
     expected.insert(3, "footprint".to_owned());
@@ -389,7 +484,7 @@ fn paper_without_room_is_refused() {
     for size in [[100.0, 300.0], [200.0, f64::NAN]] {
         let [width, height] = size;
         let settings = settings(Paper::Custom { width, height }, PaperUnits::Mm);
-        let error = sheets(&frame, &LAID.2, None, &cut_plan(&frame), &settings).unwrap_err();
+        let error = sheets(&frame, &LAID.2, None, &cut_plan(&frame), None, &settings).unwrap_err();
         assert!(error.to_string().contains("too small"), "{error}");
     }
 }

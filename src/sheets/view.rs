@@ -82,6 +82,16 @@ impl View {
         Self { right, up: toward.cross(&right), toward, fading: false }
     }
 
+    /// From a side, by the heading of the eye from the middle and its height, radians; up is
+    /// up, and far rods are as dark as near ones.
+    pub fn from_side(azimuth: f64, elevation: f64) -> Self {
+        let (sin, cos) = azimuth.sin_cos();
+        let (up, level) = elevation.sin_cos();
+        let toward = Vector3::new(cos * level, sin * level, up);
+        let right = Vector3::new(-sin, cos, 0.0);
+        Self { right, up: toward.cross(&right), toward, fading: false }
+    }
+
     /// Where a point appears, mm, y down.
     pub fn project(&self, p: &Point3) -> Point {
         [p.coords.dot(&self.right), -p.coords.dot(&self.up)]
@@ -257,7 +267,7 @@ mod tests {
 
     #[test]
     fn views_are_orthonormal_and_right_handed() {
-        for v in [View::plan(), View::isometric()] {
+        for v in [View::plan(), View::isometric(), View::from_side(2.0, 0.9)] {
             assert!((v.right.cross(&v.up) - v.toward).norm() < 1e-12);
             assert!((v.up.norm() - 1.0).abs() < 1e-12);
         }

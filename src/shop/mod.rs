@@ -7,6 +7,7 @@
 pub mod feet;
 pub mod lengths;
 pub mod marks;
+pub mod order;
 pub mod saw;
 
 #[cfg(test)]
@@ -15,6 +16,7 @@ pub(crate) use crate::frame::fixture;
 pub use feet::{Foot, feet};
 pub use lengths::{LengthClass, LengthClasses, Stick, classes};
 pub use marks::{Mark, Side, marks};
+pub use order::{Assembly, Order, OrderSettings, assembly};
 pub use saw::{Aim, Bar, BarGroup, CutError, CutPlan, Offer, Piece, Purchase, Stock};
 
 /// A name in letters, counted from zero: `a` … `z`, `aa`, `ab` … with `first` = `'a'`.

@@ -6,6 +6,7 @@ pub mod bvh;
 pub mod component;
 pub mod cut;
 mod faces;
+pub mod hull;
 pub mod locate;
 pub mod mend;
 mod orient;

@@ -1,5 +1,6 @@
 //! Writers: one file a format.
 
+pub mod assembly;
 pub mod convert;
 pub mod cutlist;
 pub mod dxf;

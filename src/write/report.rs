@@ -14,6 +14,7 @@ use crate::frame::relax::Relaxing;
 use crate::frame::share::Shared;
 use crate::frame::tolerance::{Misfit, TRIALS, UnitOff};
 use crate::ids::RodId;
+use crate::shop::Assembly;
 use crate::shop::saw::{Aim, CutPlan};
 use serde::Serialize;
 
@@ -34,6 +35,9 @@ pub struct Report {
     pub arrangement: UnitCounts,
     /// Contacts that gravity would open: the end of a rod that hangs below the other rod.
     pub tied: Vec<String>,
+    /// The order in which it is put together.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub assembly: Option<AssemblyFigures>,
     pub sawing: Sawing,
     /// What sharing lengths came to, if rods do.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -117,6 +121,23 @@ pub struct UnitCounts {
     pub all_under: usize,
     /// Some do, and some do not.
     pub mixed: usize,
+}
+
+/// The order in which a frame is put together.
+#[derive(Clone, Debug, Serialize)]
+pub struct AssemblyFigures {
+    /// `crown` or `ground`.
+    pub order: &'static str,
+    pub steps: usize,
+    /// The most rods that a step places.
+    pub most_rods: usize,
+    /// Props that are set in all, and at most at once.
+    pub props: usize,
+    pub most_props: usize,
+    /// How often a rod is lifted to slide another under it.
+    pub lifts: usize,
+    /// Props that the finished frame cannot do without.
+    pub missed_props: usize,
 }
 
 /// The sawing plan.
@@ -249,6 +270,19 @@ pub fn arrangement(found: &Arrangement) -> (UnitCounts, Vec<String>) {
     let Arrangement { over, under, mixed, ref tied } = *found;
     let units = UnitCounts { all_over: over, all_under: under, mixed };
     (units, tied.iter().map(ToString::to_string).collect())
+}
+
+/// The order's part of the report.
+pub fn assembly(assembly: &Assembly) -> AssemblyFigures {
+    AssemblyFigures {
+        order: assembly.order.code(),
+        steps: assembly.steps.len(),
+        most_rods: assembly.steps.iter().map(|step| step.rods.len()).max().unwrap_or(0),
+        props: assembly.props(),
+        most_props: assembly.most_props(),
+        lifts: assembly.lifts(),
+        missed_props: assembly.missed.len(),
+    }
 }
 
 /// The sawing plan's part of the report.

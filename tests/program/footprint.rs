@@ -89,7 +89,7 @@ fn it_comes_alone_where_asked_for_and_as_a_page_of_the_sheets() {
         .assert()
         .success();
     let files = snapshot(&dir.path().join("sheets"));
-    assert!(files.contains_key("sheets/03-footprint.svg") && !files.contains_key("footprint.svg"));
+    assert!(files.contains_key("sheets/04-footprint.svg") && !files.contains_key("footprint.svg"));
 }
 
 #[test]

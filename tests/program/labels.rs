@@ -75,6 +75,19 @@ fn a_half_used_sheet_is_begun_where_it_is_free_and_the_design_file_keeps_that() 
 }
 
 #[test]
+fn lengths_in_inches_come_as_decimals_or_fractions() {
+    let dir = tempdir().unwrap();
+    for (units, length) in [("in", "4.70 in"), ("in/16", "4 11/16 in"), ("in/32", "4 23/32 in")] {
+        let file = labels(dir.path(), &["--units", units, "--round", "0.5mm"]);
+        let pages: Vec<u32> = file.get_pages().into_keys().collect();
+        let text = file.extract_text(&pages).unwrap();
+        assert!(text.contains(length), "{units}: {text}");
+        let design = std::fs::read_to_string(dir.path().join("out/design.toml")).unwrap();
+        assert!(design.contains(&format!("units = \"{units}\"")), "{design}");
+    }
+}
+
+#[test]
 fn labels_that_do_not_exist_are_refused_with_those_that_do() {
     let dir = tempdir().unwrap();
     let refused = |args: &[&str]| {

@@ -8,6 +8,7 @@ mod footprint;
 mod forming;
 mod inspecting;
 mod labels;
+mod order;
 mod papers;
 mod patterns;
 mod refusals;

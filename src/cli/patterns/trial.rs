@@ -107,6 +107,7 @@ fn settings(surface: &Path) -> Result<(Settings, Option<&Path>), Failure> {
         cycle: None,
         turn: None,
         slide: None,
+        templates: None,
         as_built: None,
         tolerance: None,
         seed: None,

@@ -117,6 +117,9 @@ fn of_model(frame: &Frame, settings: &SheetSettings) -> say::Handout {
     let sticks = sticks(frame);
     let lengths = || sticks.iter().map(|stick| stick.length);
     let longest = lengths().fold(0.0, f64::max);
+    // Of several that are as long, the first.
+    let large = sticks.iter().find(|stick| stick.length == longest);
+    let large = large.map_or([frame.diameter; 2], |stick| stick.diameters);
     let shortest = lengths().fold(longest, f64::min);
     let kilos = sticks.iter().map(Stick::volume).sum::<f64>() * CUBIC_M * settings.density;
     let [width, depth, height] = size(frame);
@@ -145,7 +148,7 @@ fn of_model(frame: &Frame, settings: &SheetSettings) -> say::Handout {
         rim_each: format.total(RIM_EACH),
         times: TIMES as usize,
         large_longest: format.total(TIMES * longest),
-        large_diameter: format.measure(TIMES * frame.diameter),
+        large_diameter: format.diameter(large.map(|d| TIMES * d)),
         large_weight: format.weight(TIMES.powi(3) * kilos),
         ..say::Handout::default()
     }

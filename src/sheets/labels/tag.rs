@@ -12,7 +12,7 @@ use crate::shop::{Mark, classes, marks};
 /// The number's font size as part of the label's height.
 const NUMBER_SHARE: f64 = 0.42;
 /// Least and greatest font size of the number, mm: large enough to read from a step away.
-const NUMBER: [f64; 2] = [3.8, 11.0];
+const NUMBER: [f64; 2] = [3.8, 8.5];
 /// Greatest font size of the length beside the number, as part of the number's, and mm.
 const LENGTH: (f64, f64) = (0.6, 5.0);
 /// Least font size at which the length stands beside the number, mm; else it goes below.
@@ -20,9 +20,9 @@ const LEAST_LENGTH: f64 = 2.6;
 /// Between the arrow, its letter and the number, mm.
 const GAP: f64 = 0.8;
 /// Between the number and the lines below it, mm.
-const BELOW: f64 = 0.9;
+const BELOW: f64 = 1.3;
 /// Font sizes of the lines below the number, mm, the best one first.
-const SIZES: [f64; 6] = [3.2, 2.9, 2.7, 2.5, 2.3, SMALLEST];
+const SIZES: [f64; 8] = [4.0, 3.6, 3.2, 2.9, 2.7, 2.5, 2.3, SMALLEST];
 /// Between two facts on a line.
 const DOT: &str = " · ";
 

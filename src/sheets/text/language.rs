@@ -3,7 +3,7 @@
 use super::message::Entry;
 use crate::sheets::{
     cover, cut_list, figures, footprint, handout, histograms, labels, legend, notes, page, parts,
-    rod_cards, strip, support_map, support_tiles,
+    rod_cards, step_text, strip, support_map, support_tiles,
 };
 use serde::{Deserialize, Serialize};
 
@@ -84,6 +84,7 @@ pub(super) const FILES: &[MessageFile] = &[
     file!("parts.toml", parts::say::ENTRIES),
     file!("cut-list.toml", cut_list::say::ENTRIES),
     file!("rod-cards.toml", rod_cards::say::ENTRIES, strip::say::ENTRIES),
+    file!("steps.toml", step_text::say::ENTRIES),
     file!("labels.toml", labels::say::ENTRIES),
     file!("support-map.toml", support_map::say::ENTRIES, support_tiles::say::ENTRIES),
 ];

@@ -5,6 +5,10 @@
 //! sign, lengths in the unit of the papers. What messages there are, and which values each
 //! has, the pages declare beside themselves with `messages!`.
 //!
+//! To add a message: declare it in the `messages!` of its page, give its text in every language,
+//! and say it. What is forgotten does not compile or does not load. A new file of texts is one
+//! line more in `language.rs`.
+//!
 //! All texts are tried when they are loaded, so that a fault in a file of the user's is found
 //! before anything is made.
 

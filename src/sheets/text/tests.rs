@@ -29,7 +29,8 @@ fn fault(files: &[(&str, &str)]) -> String {
 /// Loading tries every text with the same values and finds what is missing or too much.
 #[test]
 fn all_languages_have_the_same_texts_and_all_can_be_said() {
-    let count = FILES.iter().flat_map(|file| file.all()).count();
+    // And the handout.
+    let count = FILES.iter().flat_map(|file| file.all()).count() + 1;
     for language in Language::ALL {
         let texts = of(language);
         assert_eq!(texts.0.sources.len(), count);

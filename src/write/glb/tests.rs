@@ -9,6 +9,12 @@ fn structure() -> Structure {
     Structure::from_frame(&frame, &classes(&frame), &[])
 }
 
+/// One whose rods rise enough to be cut level at their feet.
+fn standing() -> Structure {
+    let frame = circuit(5, 8.0);
+    Structure::from_frame(&frame, &classes(&frame), &[])
+}
+
 fn node<'a>(gltf: &'a Gltf, name: &str) -> gltf::Node<'a> {
     gltf.nodes().find(|n| n.name() == Some(name)).unwrap()
 }
@@ -48,7 +54,7 @@ fn counts(gltf: &Gltf) -> [usize; 3] {
 
 #[test]
 fn rods_that_are_cut_alike_share_a_shape() {
-    let mut s = structure();
+    let mut s = standing();
     let gltf = |s: &Structure| Gltf::from_slice(&glb(s).unwrap()).unwrap();
     assert_eq!(counts(&gltf(&s)), [3, 1, 1], "a regular circuit");
     s.supports.remove(0);
@@ -95,7 +101,7 @@ fn the_material_tells_how_a_rod_ends() {
 
 #[test]
 fn rods_are_round_and_taper_and_stand_level_on_the_ground() {
-    let mut s = structure();
+    let mut s = standing();
     s.rods[1].diameter = Some([6.0, 4.0].into());
     s.rods[2].diameter = Some([3.0, 2.0].into());
     s.rods[3].diameter = Some([4.0, 6.0].into());
@@ -120,8 +126,9 @@ fn rods_are_round_and_taper_and_stand_level_on_the_ground() {
             level += usize::from((place.z - s.ground).abs() < 1e-3);
         }
         let stands = s.supports.iter().any(|support| support.rod == rod.id);
-        // Every corner is there twice, for the side and for the end.
-        assert_eq!(level, if stands { 48 } else { 0 }, "{}", rod.id);
+        // Every corner is there twice, for the side and for the end. A square end that comes down
+        // to the ground has two at its height.
+        assert!(if stands { level == 48 } else { level <= 4 }, "{}: {level}", rod.id);
         assert_eq!(low >= s.ground - 1e-3, stands, "a square end reaches below: {low}");
     }
     let extras = node(&gltf, "R002").extras().clone().unwrap();

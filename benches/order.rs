@@ -1,0 +1,89 @@
+//! Time to find the order of assembly against the number of rods, on a smooth dome:
+//! `cargo bench --bench order [-- MOST_RODS]`.
+//!
+//! `growth` is the exponent of the time from the row before: 1 is linear. Up to 3000 rods the
+//! frame is checked as a whole again and again, beyond it each step against its neighbourhood.
+
+mod dome;
+mod measure;
+
+use dome::{Dome, dome_edge};
+use measure::{forget_peak, least, ms, peak_memory};
+use rodwright::frame::Frame;
+use rodwright::frame::canvas::{Canvas, PlaneCanvas};
+use rodwright::frame::close::Way;
+use rodwright::frame::form::{FormSettings, form, median_rise};
+use rodwright::frame::layer::Layering;
+use rodwright::frame::share::Share;
+use rodwright::pattern::Pattern;
+use rodwright::shop::{Order, OrderSettings, assembly};
+use rodwright::tiling::Placement;
+use std::time::Duration;
+
+/// Rod counts aimed at.
+const SIZES: [f64; 7] = [1e2, 4e2, 1e3, 2e3, 1e4, 3e4, 1e5];
+/// Frames up to this many rods unless another number is given.
+const MOST_RODS: f64 = 1e5;
+
+const RUNS: usize = 5;
+const BUDGET: Duration = Duration::from_secs(3);
+
+fn main() {
+    let most = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(MOST_RODS);
+    println!(
+        "{:>7} {:>6} {:<6} {:>6} {:>6} {:>6} {:>7} {:>10} {:>7} {:>8}",
+        "rods", "feet", "order", "steps", "props", "at once", "lifts", "ms", "growth", "peak MB"
+    );
+    let mut last = [None; 2];
+    for rods in SIZES.into_iter().filter(|&size| size <= most) {
+        let frame = dome(rods);
+        for (i, order) in [Order::Crown, Order::Ground].into_iter().enumerate() {
+            last[i] = Some(row(&frame, order, last[i]));
+        }
+    }
+}
+
+/// A frame on a dome that stands on its rim.
+fn dome(rods: f64) -> Frame {
+    let dome = Dome { radius: 300.0, part: 1.0 };
+    let pattern = Pattern::named("4.4.4.4").expect("4.4.4.4 is in the library");
+    let edge = dome_edge(&dome, rods);
+    let placement = Placement { origin: [0.0; 2].into(), rotation: 0.0, edge };
+    let canvas = PlaneCanvas::new(&dome, pattern, placement, pattern.usual());
+    let canvas = canvas.expect("under a million");
+    let (_, diameter) = median_rise(&canvas).expect("there are units");
+    let settings = FormSettings {
+        sizes: Default::default(),
+        diameter,
+        overhang: 2.0 * diameter,
+        round: 1e-3 * canvas.edge(),
+        share: Share::Off,
+        layering: Layering::Auto,
+        way: Way::default(),
+        // The height of its rim: 3/5 of the radius.
+        surface_low: 0.6 * dome.radius,
+    };
+    form(&canvas, &settings).expect("a dome can be built").frame
+}
+
+/// One row; returns the number of rods and the time, ms.
+fn row(frame: &Frame, order: Order, last: Option<(f64, f64)>) -> (f64, f64) {
+    forget_peak();
+    let settings = OrderSettings { order: Some(order), step_rods: None };
+    let (time, made) =
+        least(RUNS, BUDGET, || assembly(frame, &[], settings).expect("memory suffices"));
+    let (rods, all) = (frame.rods.len() as f64, ms(time));
+    let growth = |(n, t): (f64, f64)| (all / t).ln() / (rods / n).ln();
+    println!(
+        "{rods:>7} {:>6} {:<6} {:>6} {:>6} {:>7} {:>7} {all:>10.2} {:>7} {:>8.0}",
+        frame.supports.len(),
+        order.code(),
+        made.steps.len(),
+        made.props(),
+        made.most_props(),
+        made.lifts(),
+        last.map_or_else(String::new, |last| format!("{:.2}", growth(last))),
+        peak_memory(),
+    );
+    (rods, all)
+}
