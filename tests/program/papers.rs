@@ -26,7 +26,10 @@ fn german_papers_have_german_texts_and_the_data_stays_as_it_is() {
     assert!(cover.contains("Einkauf") && cover.contains("Seite 1/"), "{cover}");
     assert!(!cover.contains("To buy"));
     assert!(text(&english, "sheets/01-cover.svg").contains("To buy"));
-    let names = |files: &BTreeMap<String, Vec<u8>>| files.keys().cloned().collect::<Vec<_>>();
+    // Longer texts may take another page.
+    let names = |files: &BTreeMap<String, Vec<u8>>| -> Vec<String> {
+        files.keys().filter(|name| !name.starts_with("sheets/")).cloned().collect()
+    };
     assert_eq!(names(&english), names(&german));
     for data in ["rods.csv", "contacts.csv", "cutlist.csv", "cutlist.json", "structure.json"] {
         assert!(english[data] == german[data], "{data} differs");
