@@ -21,6 +21,7 @@ messages! {
     mod say in "labels.toml" {
         "title" => Title {}
         "sheet" => LabelSheet { number: usize }
+        "class" => Class { class: String }
     }
 }
 
@@ -53,7 +54,7 @@ pub fn labels(
     settings: &SheetSettings,
 ) -> Result<Vec<Sheet>, SheetError> {
     let settings = settings.checked()?;
-    let facts = Facts::of_all(frame, &settings);
+    let facts = Facts::of_all(frame, &settings)?;
     match labels.medium.grid() {
         Some(grid) => on_sheets(&facts, &grid, labels.used, &settings),
         None => {

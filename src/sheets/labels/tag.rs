@@ -1,12 +1,13 @@
 //! What stands on the label of a rod: its number and an arrow to end A, large; its length;
 //! class, diameter, marks and the model's name as far as there is room.
 
+use super::say;
 use crate::drawing::font::{CAP_HEIGHT, DESCENT, LEADING, elide, fit_size, text_width};
 use crate::drawing::{Color, Draw, DrawingError, Item, Weight};
 use crate::frame::Frame;
 use crate::ids::RodId;
-use crate::sheets::SheetSettings;
 use crate::sheets::page::SMALLEST;
+use crate::sheets::{SheetSettings, TextError};
 use crate::shop::{Mark, classes, marks};
 
 /// The number's font size as part of the label's height.
@@ -30,7 +31,9 @@ const DOT: &str = " · ";
 pub(super) struct Facts {
     number: String,
     length: String,
+    /// The letter, and the word with it.
     class: String,
+    class_word: String,
     diameter: String,
     marks: Vec<MarkText>,
     model: String,
@@ -46,7 +49,10 @@ struct MarkText {
 
 impl Facts {
     /// Those of all rods, in the order of their numbers.
-    pub fn of_all(frame: &Frame, settings: &SheetSettings) -> Vec<Self> {
+    ///
+    /// # Errors
+    /// A text that cannot be put together.
+    pub fn of_all(frame: &Frame, settings: &SheetSettings) -> Result<Vec<Self>, TextError> {
         let (format, classes) = (settings.format(), classes(frame));
         let facts = |rod: RodId| {
             let mark = |mark: Mark| {
@@ -55,14 +61,16 @@ impl Facts {
                 let full = format!("{short} {side} {partner} {}", mark.partner_letter);
                 MarkText { short, full }
             };
-            Self {
+            let class = &classes.of(rod).name;
+            Ok(Self {
                 number: rod.to_string(),
                 length: format.measure(frame.rods[rod].axis.length()),
-                class: classes.of(rod).name.clone(),
+                class: class.clone(),
+                class_word: settings.say(say::Class { class: class.clone() })?,
                 diameter: format.diameter(frame.rods[rod].diameters),
                 marks: marks(frame, rod).into_iter().map(mark).collect(),
                 model: settings.model.clone(),
-            }
+            })
         };
         frame.rods.ids().map(facts).collect()
     }
@@ -111,11 +119,11 @@ struct Level {
 /// What is said of class and diameter.
 #[derive(Clone, Copy)]
 enum Class {
-    /// `class B` and the diameter.
+    /// The word, letter and the diameter.
     Word,
-    /// `B` and the diameter.
+    /// The letter and the diameter.
     Letter,
-    /// `B` alone.
+    /// The letter alone.
     Alone,
     None,
 }
@@ -156,11 +164,15 @@ fn below(
         for size in SIZES {
             let first = first_line(facts, beside, level.class);
             let entries = mark_entries(&facts.marks, level.marks);
-            let first = packed(&[first], size, width)?;
-            let (Some(mut lines), Some(marks)) = (first, packed(&entries, size, width)?) else {
+            let (Some(mut lines), Some(marks)) =
+                (packed(&[first], size, width)?, packed(&entries, size, width)?)
+            else {
                 continue;
             };
-            lines.extend(marks);
+            let others = lines.len() + usize::from(level.model);
+            let free = rows(height, size).saturating_sub(others);
+            // A line for each mark is found more quickly.
+            lines.extend(if entries.len() <= free { entries } else { marks });
             if level.model {
                 lines.push(elide(&facts.model, size, Weight::Regular, width)?);
             }
@@ -182,10 +194,10 @@ fn rows(height: f64, size: f64) -> usize {
 
 /// Length (unless it stands beside the number), class and diameter.
 fn first_line(facts: &Facts, beside: bool, class: Class) -> String {
-    let Facts { length, class: letter, diameter, .. } = facts;
+    let Facts { length, class: letter, class_word, diameter, .. } = facts;
     let thick = format!("Ø {diameter}");
     let rest = match class {
-        Class::Word => vec![format!("class {letter}"), thick],
+        Class::Word => vec![class_word.clone(), thick],
         Class::Letter => vec![letter.clone(), thick],
         Class::Alone => vec![letter.clone()],
         Class::None => Vec::new(),

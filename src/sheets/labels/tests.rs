@@ -136,6 +136,19 @@ fn large_labels_tell_all_marks() {
 }
 
 #[test]
+fn words_are_those_of_the_language() {
+    let frame = fixture::on_sample("igloo", "4.4.4.4");
+    let texts_of = |language| Texts::built_in(language).unwrap();
+    for (language, word) in [(Language::En, "class L"), (Language::De, "Klasse L")] {
+        let settings =
+            SheetSettings { texts: texts_of(language), ..settings(Paper::A4, PaperUnits::Mm) };
+        let medium = LabelSettings { medium: LabelMedium::L7160, used: 0 };
+        let sheets = labels(&frame, medium, &settings).unwrap();
+        assert!(texts(&sheets[0]).any(|text| text.string.starts_with(word)), "{word}");
+    }
+}
+
+#[test]
 fn labels_begin_at_the_first_free_one() {
     let frame = fixture::on_sample("igloo", "4.4.4.4");
     let grid = LabelMedium::L7160.grid().unwrap();
