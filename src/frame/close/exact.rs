@@ -23,6 +23,13 @@ pub const EXACT: f64 = 1e-12;
 /// what the structure file promises.
 const GOOD: f64 = 1e-10;
 
+/// What the structure file promises.
+const PROMISED: f64 = 1e-9;
+
+/// How many times the rounding of a coordinate shows in a gap, which is computed from some
+/// products of differences.
+const ROUNDINGS: f64 = 4.0;
+
 /// A step that leaves more than this part of the error has come to rounding.
 const STUCK: f64 = 0.2;
 
@@ -77,6 +84,7 @@ pub fn exact(
     let mean = axes.iter().map(Axis::length).sum::<f64>() / axes.len() as f64;
     let mut rows = gap_rows(axes, task.joints)?;
     let mut bounds = task.bounds(axes, &rows);
+    let good = reachable(axes, &rows);
     let mut last = f64::INFINITY;
     let mut still = false;
     for step in 0..=MAX_STEPS {
@@ -94,12 +102,12 @@ pub fn exact(
         if settled {
             equations.lacking[rows.len()..].fill(0.0);
         }
-        if (error <= EXACT || error <= GOOD && error > STUCK * last) && broken.is_empty() && settled
+        if (error <= EXACT || error <= good && error > STUCK * last) && broken.is_empty() && settled
         {
             return Ok(Exact { steps: step, error });
         }
         if step == MAX_STEPS || error.is_nan() {
-            return Err(CloseError::Diverged { open: open(&rows) });
+            return Err(CloseError::Diverged { open: open(&rows, good) });
         }
         let before = held.len();
         held.extend(broken);
@@ -132,6 +140,14 @@ pub fn exact(
     unreachable!("the last round of the loop returns")
 }
 
+/// The error that does where steps come to rounding: more than [`GOOD`] for thin rods far from
+/// the origin, as their coordinates have no more digits.
+fn reachable(axes: &IdVec<RodId, Axis>, rows: &[Row]) -> f64 {
+    let farthest = axes.iter().fold(0.0, |far: f64, axis| far.max(axis.a.coords.amax()));
+    let thinnest = rows.iter().fold(f64::INFINITY, |thin, row| row.diameter.min(thin));
+    (ROUNDINGS * f64::EPSILON * farthest / thinnest).clamp(GOOD, PROMISED)
+}
+
 /// S of [`Projector::factor`]: contacts are firm, bounds give way a little. So do marks: what is
 /// left of one is pulled at again in the next step, and where marks contradict each other, it
 /// tends to the least sum of squares.
@@ -146,8 +162,8 @@ pub(super) fn release(held: &mut BTreeSet<Bound>, pull: &[f64]) {
 }
 
 /// The contacts whose gaps are still wrong.
-fn open(rows: &[Row]) -> Vec<ContactId> {
-    let wrong = |row: &&Row| row.error().is_nan() || row.error() > GOOD;
+fn open(rows: &[Row], good: f64) -> Vec<ContactId> {
+    let wrong = |row: &&Row| row.error().is_nan() || row.error() > good;
     let mut open: Vec<ContactId> = rows.iter().filter(wrong).map(|row| row.contact).collect();
     open.dedup();
     open
