@@ -39,13 +39,18 @@ messages! {
         "guide-under" => GuideUnder {}
         "guide-end" => GuideEnd {}
         "guide-lines" => GuideLines {}
-        "guide-example" => GuideExample {}
-        "guide-explained" => GuideExplained {}
+        "guide-example" => GuideExample { at: String, mate: String, angle: String, clock: String }
+        "guide-explained" => GuideExplained { at: String, mate: String, angle: String }
         "guide-clock" => GuideClock {}
         "guide-ends" => GuideEnds {}
         "check" => Check {}
     }
 }
+
+/// The line of a rod card that is explained: where the mark is on the rod and on its partner,
+/// mm, and at which angles they cross and the partner sits, degrees.
+const EXAMPLE_MARKS: [f64; 2] = [112.4, 118.3];
+const EXAMPLE_ANGLES: [f64; 2] = [41.2, 187.0];
 
 /// Least height of the two views, mm.
 const LEAST_VIEW: f64 = 55.0;
@@ -363,8 +368,13 @@ fn guide(frame: &Frame, settings: &SheetSettings, width: f64) -> Result<Block, S
         block.signed(&settings.say(say::GuideEnd {})?, width, indent, Some(Side::Meets(end)))?;
     }
     block.text(&settings.say(say::GuideLines {})?, width)?;
-    block.verbatim(&settings.say(say::GuideExample {})?, width)?;
-    block.text(&settings.say(say::GuideExplained {})?, width)?;
+    let format = settings.format();
+    let [at, mate] = EXAMPLE_MARKS.map(|at| format.length(at));
+    let [angle, clock] = EXAMPLE_ANGLES.map(|degrees: f64| format.angle(degrees.to_radians()));
+    let example =
+        say::GuideExample { at: at.clone(), mate: mate.clone(), angle: angle.clone(), clock };
+    block.verbatim(&settings.say(example)?, width)?;
+    block.text(&settings.say(say::GuideExplained { at, mate, angle })?, width)?;
     block.text(&settings.say(say::GuideClock {})?, width)?;
     block.text(&settings.say(say::GuideEnds {})?, width)?;
     Ok(block)

@@ -6,7 +6,7 @@ use super::histograms::{
 use super::page::{BODY, Column, Flow, HEADING, Leaf, TABLE, TABLE_LEADING, Table};
 use super::text::TextError;
 use super::text::message::messages;
-use super::{PaperUnits, SheetError, SheetSettings};
+use super::{SheetError, SheetSettings};
 use crate::drawing::Rect;
 use crate::drawing::font::LEADING;
 use crate::frame::measure::{Measures, Spread};
@@ -86,7 +86,7 @@ fn table(measures: &Measures, settings: &SheetSettings) -> Result<Table, TextErr
         vec![what, median, rms, max, unit]
     };
     let gap = format.local(format!("{:.0e}", measures.worst_gap));
-    let (none, inches) = (String::new, settings.units == PaperUnits::Inch);
+    let (none, inches) = (String::new, settings.units.is_inches());
     Ok(Table {
         columns: vec![
             Column::text(settings.say(say::Figure {})?),

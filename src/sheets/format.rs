@@ -40,6 +40,11 @@ impl PaperUnits {
         }
     }
 
+    /// Whether lengths are in inches, in decimals or fractions.
+    pub fn is_inches(self) -> bool {
+        self != Self::Mm
+    }
+
     /// A length without its unit: every length on paper is printed by this.
     pub fn length(self, mm: f64) -> String {
         match self {
@@ -236,6 +241,13 @@ mod tests {
     use super::*;
     use crate::ids::Id;
     use proptest::prelude::*;
+
+    #[test]
+    fn fractions_are_inches_too() {
+        for units in <PaperUnits as clap::ValueEnum>::value_variants() {
+            assert_eq!(units.is_inches(), units.name() == "in");
+        }
+    }
 
     #[test]
     fn lengths_in_both_units() {

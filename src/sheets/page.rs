@@ -2,7 +2,7 @@
 
 use super::text::message::messages;
 use super::text::{TextError, Texts};
-use super::{Format, PaperUnits, SheetError, SheetSettings};
+use super::{Format, SheetError, SheetSettings};
 use crate::drawing::font::{LEADING, elide, text_width, wrap};
 use crate::drawing::pdf::Page;
 use crate::drawing::{Anchor, Color, Draw, Drawing, DrawingError, Rect, Stroke, Weight};
@@ -171,7 +171,7 @@ fn title_block(
     let facts = settings.say(say::Facts {
         diameters: diameters.to_owned(),
         scale: leaf.scale.clone().unwrap_or_default(),
-        inches: settings.units == PaperUnits::Inch,
+        inches: settings.units.is_inches(),
     })?;
     let room = area.width() - text_width(&facts, BODY, Weight::Regular)? - 5.0;
     paper.text([left, top + 9.0], BODY, elide(&leaf.title, BODY, Weight::Regular, room)?);
