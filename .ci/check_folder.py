@@ -96,7 +96,8 @@ def main():
     tools, out = (pathlib.Path(a) for a in sys.argv[1:3])
     with open(out / "rods.csv", newline="", encoding="utf-8") as f:
         rods = [row["id"] for row in csv.DictReader(f)]
-    check_glb(tools, out / "model.glb")
+    for model in sorted(out.glob("*.glb")):
+        check_glb(tools, model)
     check_pdfs(out, rods)
     structure = json.loads((out / "structure.json").read_text(encoding="utf-8"))
     check_dxf(out / "support-map.dxf", structure)

@@ -14,7 +14,7 @@ use crate::sheets::{pictures, sheets, step_sheets, support_map};
 use crate::shop::lengths::classes;
 use crate::write::assembly::assembly_json;
 use crate::write::cutlist::{cutlist_csv, cutlist_json};
-use crate::write::glb::{GlbError, glb};
+use crate::write::glb::{GlbError, assembly_glb, glb};
 use crate::write::report::{self, Report};
 use crate::write::structure::{Structure, StructureFault};
 use crate::write::tables::{self, TableError};
@@ -53,6 +53,9 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
     }
     if let (Some(assembly), true) = (&model.assembly, design.wants(Part::Assembly)) {
         files.add("assembly.json", assembly_json(assembly)?);
+        if design.wants(Part::Glb) {
+            files.add("assembly.glb", assembly_glb(&structure, assembly)?);
+        }
     }
     if design.wants(Part::Glb) {
         files.add("model.glb", glb(&structure)?);

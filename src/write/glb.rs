@@ -14,8 +14,10 @@ mod cylinder;
 mod look;
 mod parts;
 mod plain;
+mod steps;
 
 pub use plain::{mesh_glb, mesh_gltf};
+pub use steps::assembly_glb;
 
 use super::figure::rounded;
 use super::rod_shape::{RodShapes, across};
