@@ -4,7 +4,9 @@
 //! Everything here is read off a finished [`Frame`](crate::frame::Frame); nothing
 //! changes it. Lengths in mm, angles in radians. No paper and no file formats.
 
+pub mod falsework;
 pub mod feet;
+pub mod laser;
 pub mod lengths;
 pub mod marks;
 pub mod order;

@@ -1,0 +1,204 @@
+//! What is scored on the plate: where rods stand and which way they go, and the numbers of
+//! stands, units and feet, each where there is room.
+
+use super::boards::slots;
+use super::plate::{Piece, Seams};
+use super::stand::{Shape, Stand};
+use crate::frame::Frame;
+use crate::shop::feet;
+use crate::shop::laser::{Board, Curve, Lettering, Point, width_of};
+
+/// Height of numbers, mm.
+const LETTERS: f64 = 3.0;
+/// Height of the letters that name a piece, mm.
+const PIECE_LETTERS: f64 = 5.0;
+/// Length of the lines that show which way a rod goes, mm.
+const TICK: f64 = 6.0;
+/// Between a stand or a foot and its line, and round numbers, mm.
+const FREE: f64 = 1.5;
+/// How far a number may lie from what it numbers, mm.
+const FARTHEST: f64 = 45.0;
+/// Straight pieces of a circle that is divided over pieces of the plate, and the longest
+/// pieces of lines, mm.
+const CIRCLE: usize = 32;
+const BIT: f64 = 0.5;
+
+/// The pieces of the plate with their slots and what is scored on them.
+pub fn plate(
+    frame: &Frame,
+    seams: &Seams,
+    stands: &[(Stand, Shape)],
+    thickness: f64,
+) -> Vec<Board> {
+    let pieces = seams.pieces();
+    let alone = pieces.len() == 1;
+    let name = |p: &Piece| match alone {
+        true => "base plate".to_owned(),
+        false => format!("base plate, piece {}", piece_name(p)),
+    };
+    let mut boards: Vec<Board> =
+        pieces.iter().map(|p| Board::new(name(p), seams.outline(*p))).collect();
+    let mut taken: Vec<[Point; 2]> = seams.bands();
+    for (stand, shape) in stands {
+        for slot in slots(stand, shape, thickness) {
+            taken.push(bounds(&slot));
+            if let Some(at) = boards.iter().position(|b| holds(&b.outline, slot[0])) {
+                boards[at].holes.push(Curve::Path(slot));
+            }
+        }
+    }
+    let mut lines = Vec::new();
+    for (stand, shape) in stands {
+        lines.extend(stand_ticks(stand, shape, thickness));
+    }
+    let feet = feet::feet(frame);
+    for foot in &feet {
+        let (sin, cos) = foot.azimuth.sin_cos();
+        let (r, [x, y]) = (foot.diameter / 2.0, [foot.x, foot.y]);
+        lines.push(circle([x, y], r));
+        let along = |d: f64| [x + d * cos, y + d * sin];
+        lines.push(vec![along(r + FREE), along(r + FREE + TICK)]);
+    }
+    taken.extend(lines.iter().map(|line| bounds(line)));
+    if !alone {
+        for piece in &pieces {
+            let [x, y] = [seams.x[piece.column], seams.y[piece.row]];
+            let corner = [x + seams.deep + FREE, y + seams.deep + FREE];
+            let name = piece_name(piece);
+            let strokes = Lettering::new(PIECE_LETTERS).at(corner, &name);
+            taken.push(bounds(&strokes.concat()));
+            lines.extend(strokes);
+        }
+    }
+    let mut numbers: Vec<(Point, Vec<String>)> = Vec::new();
+    for (stand, _) in stands {
+        let unit = stand.unit.map(|u| u.to_string());
+        numbers.push((stand.foot, [stand.id.to_string()].into_iter().chain(unit).collect()));
+    }
+    numbers.extend(feet.iter().map(|f| ([f.x, f.y], vec![f.rod.to_string()])));
+    let rim = [[seams.x[0], seams.y[0]], [seams.x[seams.x.len() - 1], seams.y[seams.y.len() - 1]]];
+    for (at, text) in numbers {
+        lines.extend(number(at, &text, rim, &mut taken));
+    }
+    for line in lines {
+        share_out(&line, seams, &mut boards);
+    }
+    boards
+}
+
+/// `A1` is the piece in front on the left, `B1` that to its right.
+fn piece_name(piece: &Piece) -> String {
+    format!("{}{}", crate::shop::letters(piece.column, 'A'), piece.row + 1)
+}
+
+/// Two short lines along the rod, beyond its stand.
+fn stand_ticks(stand: &Stand, shape: &Shape, thickness: f64) -> Vec<Vec<Point>> {
+    let [_, [ux, uy]] = stand.ways();
+    let half = if shape.brace.is_some() { shape.half_foot } else { thickness / 2.0 };
+    let along = |d: f64| [stand.foot[0] + d * ux, stand.foot[1] + d * uy];
+    let (from, to) = (half + FREE, half + FREE + TICK);
+    vec![vec![along(-from), along(-to)], vec![along(from), along(to)]]
+}
+
+/// A number on the first free place about a point, going outward; no number where there is
+/// none.
+fn number(
+    [x, y]: Point,
+    text: &[String],
+    [low, high]: [Point; 2],
+    taken: &mut Vec<[Point; 2]>,
+) -> Vec<Vec<Point>> {
+    let half_width = text.iter().map(|t| width_of(t, LETTERS)).fold(0.0, f64::max) / 2.0;
+    let half_height = LETTERS * (1.5 * text.len() as f64 - 0.5) / 2.0;
+    let (half_width, half_height) = (half_width + FREE, half_height + FREE);
+    let mut far = 3.0;
+    while far < FARTHEST {
+        for turn in 0..16 {
+            let (sin, cos) = (f64::from(turn) * std::f64::consts::TAU / 16.0).sin_cos();
+            let middle = [x + far * cos, y + far * sin];
+            let place = [
+                [middle[0] - half_width, middle[1] - half_height],
+                [middle[0] + half_width, middle[1] + half_height],
+            ];
+            let inside = (0..2).all(|i| low[i] < place[0][i] && place[1][i] < high[i]);
+            if !inside || taken.iter().any(|other| overlap(&place, other)) {
+                continue;
+            }
+            taken.push(place);
+            let lines = text.len() as f64;
+            let line = |i: usize| [middle[0], middle[1] + ((lines - 1.0) / 2.0 - i as f64) * 1.5 * LETTERS];
+            let letters = Lettering::new(LETTERS);
+            return text.iter().enumerate().flat_map(|(i, t)| letters.centred(line(i), t)).collect();
+        }
+        far += 1.5;
+    }
+    Vec::new()
+}
+
+/// Scores a line on the piece that it lies on, or its parts on theirs.
+fn share_out(line: &[Point], seams: &Seams, boards: &mut [Board]) {
+    let near = bounds(line);
+    if boards.len() == 1 {
+        boards[0].score([line.to_vec()]);
+        return;
+    }
+    let on = |p: Point, boards: &[Board]| boards.iter().position(|b| holds(&b.outline, p));
+    if !seams.bands().iter().any(|band| overlap(&near, band)) {
+        if let Some(at) = on(line[0], boards) {
+            boards[at].score([line.to_vec()]);
+        }
+        return;
+    }
+    let mut run: Option<(usize, Vec<Point>)> = None;
+    for pair in line.windows(2) {
+        let [a, b] = [pair[0], pair[1]];
+        let bits = ((b[0] - a[0]).hypot(b[1] - a[1]) / BIT).ceil().max(1.0) as usize;
+        let at = |i: f64| [0, 1].map(|k| a[k] + (b[k] - a[k]) * i / bits as f64);
+        for i in 0..bits {
+            let Some(here) = on(at(i as f64 + 0.5), boards) else { continue };
+            match &mut run {
+                Some((board, points)) if *board == here => points.push(at(i as f64 + 1.0)),
+                _ => {
+                    let next = (here, vec![at(i as f64), at(i as f64 + 1.0)]);
+                    if let Some((board, points)) = run.replace(next) {
+                        boards[board].score([points]);
+                    }
+                }
+            }
+        }
+    }
+    if let Some((board, points)) = run {
+        boards[board].score([points]);
+    }
+}
+
+/// A circle as a line that ends where it begins.
+fn circle([x, y]: Point, radius: f64) -> Vec<Point> {
+    let point = |i: usize| {
+        let (sin, cos) = (std::f64::consts::TAU * (i % CIRCLE) as f64 / CIRCLE as f64).sin_cos();
+        [x + radius * cos, y + radius * sin]
+    };
+    (0..=CIRCLE).map(point).collect()
+}
+
+/// Lower left and upper right corner of the box round some points.
+fn bounds(points: &[Point]) -> [Point; 2] {
+    let start = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    points.iter().fold(start, |[lo, hi], p| {
+        [[lo[0].min(p[0]), lo[1].min(p[1])], [hi[0].max(p[0]), hi[1].max(p[1])]]
+    })
+}
+
+fn overlap([a, b]: &[Point; 2], [c, d]: &[Point; 2]) -> bool {
+    (0..2).all(|i| a[i] <= d[i] && c[i] <= b[i])
+}
+
+/// Whether a point lies in a ring: a line from it to the right crosses the ring an odd number
+/// of times.
+fn holds(ring: &[Point], [x, y]: Point) -> bool {
+    let next = ring.iter().cycle().skip(1);
+    let crossings = ring.iter().zip(next).filter(|(a, b)| {
+        (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+    });
+    crossings.count() % 2 == 1
+}
