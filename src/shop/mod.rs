@@ -6,6 +6,8 @@
 
 pub mod falsework;
 pub mod feet;
+pub mod gauges;
+pub mod jigs;
 pub mod laser;
 pub mod lengths;
 pub mod marks;
@@ -16,6 +18,7 @@ pub mod saw;
 pub(crate) use crate::frame::fixture;
 
 pub use feet::{Foot, feet};
+pub use jigs::{Jig, JigError, JigSettings, Jigs, jigs};
 pub use lengths::{LengthClass, LengthClasses, Stick, classes};
 pub use marks::{Mark, Side, marks};
 pub use order::{Assembly, Order, OrderSettings, assembly};

@@ -24,7 +24,7 @@ use super::laser::Board;
 use crate::frame::Frame;
 
 /// The falsework of a frame.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Default)]
 pub struct Falsework {
     /// Where props stand, and what has none.
     pub choice: Choice,
