@@ -244,7 +244,7 @@ fn lasered(jigs: &Result<Jigs, JigError>) -> String {
     let props = match (jigs.props, jigs.unheld.len() + jigs.missed.len()) {
         (0, 0) => String::new(),
         (props, 0) => format!(", {props} props"),
-        (props, n) => format!(", {props} props ({n} have no room; report.json)"),
+        (props, n) => format!(", {props} props; there is none for {n} more (report.json)"),
     };
     format!("{sheets} of {width} × {height} mm{props}")
 }

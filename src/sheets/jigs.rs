@@ -91,9 +91,7 @@ fn drawn(
 /// A scored line; one that ends where it begins is closed.
 fn score(curve: &Curve, down: &dyn Fn(&Point) -> Point, stroke: Stroke) -> Figure {
     let shape = match curve {
-        Curve::Circle { center, radius } => {
-            Shape::Circle { center: down(center), radius: *radius }
-        }
+        Curve::Circle { center, radius } => Shape::Circle { center: down(center), radius: *radius },
         Curve::Path(points) => match &points[..] {
             [first, ring @ .., last] if ring.len() > 1 && first == last => {
                 Shape::Area(vec![points[1..].iter().map(down).collect()])

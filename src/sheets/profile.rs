@@ -4,9 +4,7 @@ use crate::drawing::Color;
 use serde::{Deserialize, Serialize};
 
 /// The laser, or its program, or the service that cuts.
-#[derive(
-    Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, clap::ValueEnum,
-)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum LaserProfile {
     /// Red cuts, blue scores, black areas are engraved; hairlines of 0.01 mm

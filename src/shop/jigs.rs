@@ -112,7 +112,9 @@ pub enum JigError {
         kerf: f64,
     },
     /// More sheets than are written unless they are asked for.
-    #[error("they would take {sheets} sheets. Ask for them with --only jigs, or for some of them with --jigs")]
+    #[error(
+        "they would take {sheets} sheets. Ask for them with --only jigs, or for some of them with --jigs"
+    )]
     TooMany {
         /// How many.
         sheets: usize,
@@ -121,8 +123,7 @@ pub enum JigError {
 
 /// What helps where a part does not fit.
 fn help(kind: Jig) -> String {
-    let others: Vec<&str> =
-        Jig::ALL.into_iter().filter(|k| *k != kind).map(Jig::code).collect();
+    let others: Vec<&str> = Jig::ALL.into_iter().filter(|k| *k != kind).map(Jig::code).collect();
     let smaller = if kind == Jig::Falsework { ", make the model smaller (--span)" } else { "" };
     format!(
         "Take a larger sheet (--sheet){smaller}, or leave this kind out: --jigs {}",
@@ -199,4 +200,134 @@ fn laid_out(
         sheets[sheet].push(board.placed(corner, turned));
     }
     Ok(sheets)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shop::fixture;
+    use crate::shop::laser::{Curve, GAP, MARGIN, Point, REFERENCE, area};
+    use crate::shop::lengths::sticks;
+    use crate::shop::saw::{Offer, Stock, plan_some};
+
+    fn igloo() -> (Frame, CutPlan) {
+        let frame = fixture::on_sample("igloo", "4.4.4.4");
+        let sticks = sticks(&frame);
+        let stock = Stock { bars: vec![Offer::plain(1000.0)], kerf: 1.0, trim: 0.0, keep: None };
+        let plan = plan_some(&sticks, sticks.ids(), &stock).unwrap();
+        (frame, plan)
+    }
+
+    fn settings(sheet: [f64; 2], kerf: f64) -> JigSettings {
+        JigSettings { kinds: Jig::ALL.to_vec(), sheet, thickness: 3.0, kerf }
+    }
+
+    fn holds(ring: &[Point], [x, y]: Point) -> bool {
+        let next = ring.iter().cycle().skip(1);
+        let crossed = ring.iter().zip(next).filter(|(a, b)| {
+            (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+        });
+        crossed.count() % 2 == 1
+    }
+
+    #[test]
+    fn parts_keep_apart_on_every_sheet() {
+        let (frame, plan) = igloo();
+        let jigs = jigs(&frame, &plan, None, &settings([600.0, 400.0], 0.2)).unwrap();
+        let reference = [[MARGIN; 2], [MARGIN + REFERENCE[0], MARGIN + REFERENCE[1]]];
+        assert!(jigs.sheets.len() > 1 && jigs.sheets.len() < 8);
+        for boards in &jigs.sheets {
+            let mut boxes = vec![reference];
+            for board in boards {
+                let [lo, hi] = board.bounds();
+                assert!(lo[0].min(lo[1]) >= MARGIN - 1e-9, "{}", board.name);
+                assert!(hi[0] <= 595.0 + 1e-9 && hi[1] <= 395.0 + 1e-9, "{}", board.name);
+                for [a, b] in &boxes {
+                    let apart =
+                        (0..2).any(|i| b[i] + GAP <= lo[i] + 1e-6 || hi[i] + GAP <= a[i] + 1e-6);
+                    assert!(apart, "{}", board.name);
+                }
+                boxes.push([lo, hi]);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_scored_lies_on_its_board_and_in_no_hole() {
+        let (frame, plan) = igloo();
+        for sheet in [[600.0, 400.0], [310.0, 300.0]] {
+            let jigs = jigs(&frame, &plan, None, &settings(sheet, 0.2)).unwrap();
+            for board in jigs.sheets.iter().flatten() {
+                let rings = board.holes.iter().filter_map(|h| match h {
+                    Curve::Path(ring) => Some(ring),
+                    Curve::Circle { .. } => None,
+                });
+                let holes: Vec<_> = rings.collect();
+                let scored = board.scores.iter().flat_map(|s| match s {
+                    Curve::Path(path) => path.clone(),
+                    Curve::Circle { .. } => panic!("scores are lines"),
+                });
+                for p in scored.chain(board.engraved.concat()) {
+                    assert!(holds(&board.outline, p), "{}: {p:?}", board.name);
+                    assert!(!holes.iter().any(|h| holds(h, p)), "{}: {p:?} in a hole", board.name);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn parts_are_drawn_larger_and_their_holes_smaller_by_the_cut() {
+        let (frame, plan) = igloo();
+        let made = |kerf| {
+            let jigs = jigs(&frame, &plan, None, &settings([600.0, 400.0], kerf)).unwrap();
+            let mut boards: Vec<Board> = jigs.sheets.into_iter().flatten().collect();
+            boards.sort_by(|a, b| a.name.cmp(&b.name));
+            boards
+        };
+        let length = |ring: &[Point]| -> f64 {
+            let next = ring.iter().cycle().skip(1);
+            ring.iter().zip(next).map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1])).sum()
+        };
+        let (exact, cut) = (made(0.0), made(0.2));
+        assert!(exact.len() == cut.len() && exact.len() > 100);
+        for (exact, cut) in exact.iter().zip(&cut) {
+            assert_eq!(exact.name, cut.name);
+            let grown = area(&cut.outline) - area(&exact.outline);
+            if exact.exact {
+                assert!(grown.abs() < 1e-9, "{}", exact.name);
+                continue;
+            }
+            // Half the cut all round, but for the corners: each is off by a square of it.
+            let corners = exact.outline.len() as f64;
+            let wanted = 0.1 * length(&exact.outline);
+            assert!((grown - wanted).abs() < 0.05 * corners, "{}: {grown}", exact.name);
+            assert!(grown > 0.5 * wanted, "{}", exact.name);
+            for pair in exact.holes.iter().zip(&cut.holes) {
+                match pair {
+                    (Curve::Path(a), Curve::Path(b)) => {
+                        let lost = area(a).abs() - area(b).abs();
+                        assert!((lost - 0.1 * length(a)).abs() < 0.05, "{}", exact.name);
+                    }
+                    (Curve::Circle { radius: a, .. }, Curve::Circle { radius: b, .. }) => {
+                        assert!((a - b - 0.1).abs() < 1e-9, "{}", exact.name);
+                    }
+                    other => panic!("{other:?}"),
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_named_with_what_helps() {
+        let (frame, plan) = igloo();
+        let refused = |sheet| jigs(&frame, &plan, None, &settings(sheet, 0.2)).unwrap_err();
+        let long = refused([200.0, 200.0]);
+        let JigError::TooLarge { part, .. } = &long else { panic!("{long}") };
+        assert!(part.starts_with("prop P"), "{part}");
+        for word in ["--sheet", "--span", "200 × 200 mm", "--jigs marking,"] {
+            assert!(long.to_string().contains(word), "{long}");
+        }
+        let plate = refused([120.0, 60.0]).to_string();
+        assert!(plate.contains("base plate") && plate.contains("--span"), "{plate}");
+    }
 }

@@ -14,8 +14,8 @@ use crate::frame::relax::Relaxing;
 use crate::frame::share::Shared;
 use crate::frame::tolerance::{Misfit, TRIALS, UnitOff};
 use crate::ids::RodId;
-use crate::shop::{Assembly, JigError, Jigs};
 use crate::shop::saw::{Aim, CutPlan};
+use crate::shop::{Assembly, JigError, Jigs};
 use serde::Serialize;
 
 /// The report of a run.

@@ -50,9 +50,8 @@ pub fn slots(stand: &Stand, shape: &Shape, thickness: f64) -> Vec<Vec<Point>> {
     let boards = if shape.brace.is_some() { &ways[..] } else { &ways[..1] };
     let mut slots = Vec::new();
     for &[ux, uy] in boards {
-        let place = |[x, y]: Point| {
-            [stand.foot[0] + x * ux - y * uy, stand.foot[1] + x * uy + y * ux]
-        };
+        let place =
+            |[x, y]: Point| [stand.foot[0] + x * ux - y * uy, stand.foot[1] + x * uy + y * ux];
         for start in [-to, from] {
             let ring = rectangle([start, -thickness / 2.0], [to - from, thickness]);
             slots.push(ring.into_iter().map(place).collect());

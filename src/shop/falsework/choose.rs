@@ -17,8 +17,6 @@ use std::collections::BTreeSet;
 
 /// Places that are tried along a rod.
 const PLACES: usize = 40;
-/// How far a prop of the assembly may be moved to where a stand has room, as a share of the rod.
-const MOVED: f64 = 0.25;
 
 /// The stands, and what is left without.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -32,15 +30,11 @@ pub struct Choice {
 }
 
 /// Chooses the stands of a frame, of board so thick.
-pub fn choose(
-    frame: &Frame,
-    assembly: Option<&Assembly>,
-    seams: &Seams,
-    thickness: f64,
-) -> Choice {
+pub fn choose(frame: &Frame, assembly: Option<&Assembly>, seams: &Seams, thickness: f64) -> Choice {
     let mut site = Site { frame, seams, thickness, feet: Vec::new(), choice: Choice::default() };
     let ground = assembly.filter(|a| a.order == Order::Ground);
-    let mut props: Vec<&Prop> = ground.iter().flat_map(|a| &a.steps).flat_map(|s| &s.props).collect();
+    let mut props: Vec<&Prop> =
+        ground.iter().flat_map(|a| &a.steps).flat_map(|s| &s.props).collect();
     if props.is_empty() {
         site.hold_units();
     } else {
@@ -68,7 +62,7 @@ impl Site<'_> {
                 self.frame.units[unit].rods.iter().flat_map(|&rod| self.places(rod)).collect();
             places.sort_by(|a, b| {
                 let key = |&(rod, at): &(RodId, f64)| {
-                    (taken.contains(&rod), self.overs(unit, rod), self.from_middle(unit, rod, at))
+                    (taken.contains(&rod), self.overs(unit, rod), self.off_middle(unit, rod, at))
                 };
                 let (a, b) = (key(a), key(b));
                 (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
@@ -83,13 +77,11 @@ impl Site<'_> {
         }
     }
 
-    /// Sets a stand for a prop of the assembly.
+    /// Sets a stand for a prop of the assembly: on its rod, as near to its place as there is room.
     fn take_up(&mut self, prop: &Prop) {
-        let reach = MOVED * self.frame.rods[prop.rod].axis.length();
         let off = |&(_, at): &(RodId, f64)| (at - prop.at).abs();
         let mut places = self.places(prop.rod);
         places.push((prop.rod, prop.at));
-        places.retain(|place| off(place) <= reach);
         places.sort_by(|a, b| off(a).total_cmp(&off(b)));
         match self.first_clear(prop.id, places) {
             Some((stand, shape)) => self.set(stand, shape),
@@ -119,7 +111,7 @@ impl Site<'_> {
     }
 
     /// How far a place on a rod is from the middle of a unit, from above, mm.
-    fn from_middle(&self, unit: UnitId, rod: RodId, at: f64) -> f64 {
+    fn off_middle(&self, unit: UnitId, rod: RodId, at: f64) -> f64 {
         let off = self.frame.rods[rod].axis.at(at) - self.frame.units[unit].center.position;
         off.x.hypot(off.y)
     }

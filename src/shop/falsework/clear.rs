@@ -47,7 +47,8 @@ impl Upright {
                 return 0.0;
             }
         }
-        let over = |p: Point3, off: f64| if self.covers(flat(p)) { off.abs() } else { f64::INFINITY };
+        let over =
+            |p: Point3, off: f64| if self.covers(flat(p)) { off.abs() } else { f64::INFINITY };
         let ends = over(axis.a, a).min(over(axis.b, b));
         let corner = |i: usize| self.at(self.corners[i % 4], ground);
         let side = |i: usize| Axis { a: corner(i), b: corner(i + 1) }.distance(axis);

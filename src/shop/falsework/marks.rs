@@ -5,7 +5,7 @@ use super::boards::slots;
 use super::plate::{Piece, Seams};
 use super::stand::{Shape, Stand};
 use crate::frame::Frame;
-use crate::shop::feet;
+use crate::shop::feet::{self, Foot};
 use crate::shop::laser::{Board, Curve, Lettering, Point, width_of};
 
 /// Height of numbers, mm.
@@ -30,14 +30,7 @@ pub fn plate(
     stands: &[(Stand, Shape)],
     thickness: f64,
 ) -> Vec<Board> {
-    let pieces = seams.pieces();
-    let alone = pieces.len() == 1;
-    let name = |p: &Piece| match alone {
-        true => "base plate".to_owned(),
-        false => format!("base plate, piece {}", piece_name(p)),
-    };
-    let mut boards: Vec<Board> =
-        pieces.iter().map(|p| Board::new(name(p), seams.outline(*p))).collect();
+    let mut boards = plain(seams);
     let mut taken: Vec<[Point; 2]> = seams.bands();
     for (stand, shape) in stands {
         for slot in slots(stand, shape, thickness) {
@@ -47,43 +40,59 @@ pub fn plate(
             }
         }
     }
-    let mut lines = Vec::new();
-    for (stand, shape) in stands {
-        lines.extend(stand_ticks(stand, shape, thickness));
-    }
     let feet = feet::feet(frame);
-    for foot in &feet {
-        let (sin, cos) = foot.azimuth.sin_cos();
-        let (r, [x, y]) = (foot.diameter / 2.0, [foot.x, foot.y]);
-        lines.push(circle([x, y], r));
-        let along = |d: f64| [x + d * cos, y + d * sin];
-        lines.push(vec![along(r + FREE), along(r + FREE + TICK)]);
-    }
+    let stood = stands.iter().flat_map(|(stand, shape)| stand_ticks(stand, shape, thickness));
+    let mut lines: Vec<Vec<Point>> = stood.chain(feet.iter().flat_map(foot_lines)).collect();
     taken.extend(lines.iter().map(|line| bounds(line)));
-    if !alone {
-        for piece in &pieces {
-            let [x, y] = [seams.x[piece.column], seams.y[piece.row]];
-            let corner = [x + seams.deep + FREE, y + seams.deep + FREE];
-            let name = piece_name(piece);
-            let strokes = Lettering::new(PIECE_LETTERS).at(corner, &name);
-            taken.push(bounds(&strokes.concat()));
-            lines.extend(strokes);
-        }
+    for name in piece_names(seams) {
+        taken.push(bounds(&name.concat()));
+        lines.extend(name);
     }
-    let mut numbers: Vec<(Point, Vec<String>)> = Vec::new();
     for (stand, _) in stands {
         let unit = stand.unit.map(|u| u.to_string());
-        numbers.push((stand.foot, [stand.id.to_string()].into_iter().chain(unit).collect()));
+        let text: Vec<String> = [stand.id.to_string()].into_iter().chain(unit).collect();
+        lines.extend(number(stand.foot, &text, seams.around(stand.foot), &mut taken));
     }
-    numbers.extend(feet.iter().map(|f| ([f.x, f.y], vec![f.rod.to_string()])));
-    let rim = [[seams.x[0], seams.y[0]], [seams.x[seams.x.len() - 1], seams.y[seams.y.len() - 1]]];
-    for (at, text) in numbers {
-        lines.extend(number(at, &text, rim, &mut taken));
+    for foot in &feet {
+        let at = [foot.x, foot.y];
+        lines.extend(number(at, &[foot.rod.to_string()], seams.around(at), &mut taken));
     }
     for line in lines {
         share_out(&line, seams, &mut boards);
     }
     boards
+}
+
+/// The pieces as they are cut, without anything on them.
+fn plain(seams: &Seams) -> Vec<Board> {
+    let pieces = seams.pieces();
+    let name = |p: &Piece| match pieces.len() {
+        1 => "base plate".to_owned(),
+        _ => format!("base plate, piece {}", piece_name(p)),
+    };
+    pieces.iter().map(|p| Board::new(name(p), seams.outline(*p))).collect()
+}
+
+/// The strokes of each piece's name, in its corner; none of one that is alone.
+fn piece_names(seams: &Seams) -> Vec<Vec<Vec<Point>>> {
+    let mut pieces = seams.pieces();
+    if pieces.len() == 1 {
+        pieces.clear();
+    }
+    let strokes = |piece: &Piece| {
+        let corner = [seams.x[piece.column], seams.y[piece.row]];
+        let start = corner.map(|c| c + seams.deep + FREE);
+        Lettering::new(PIECE_LETTERS).at(start, &piece_name(piece))
+    };
+    pieces.iter().map(strokes).collect()
+}
+
+/// The circle of a foot, and a line the way its rod goes.
+fn foot_lines(foot: &Foot) -> [Vec<Point>; 2] {
+    let (sin, cos) = foot.azimuth.sin_cos();
+    let r = foot.diameter / 2.0;
+    let along = |d: f64| [foot.x + d * cos, foot.y + d * sin];
+    [circle([foot.x, foot.y], r), vec![along(r + FREE), along(r + FREE + TICK)]]
 }
 
 /// `A1` is the piece in front on the left, `B1` that to its right.
@@ -126,9 +135,15 @@ fn number(
             }
             taken.push(place);
             let lines = text.len() as f64;
-            let line = |i: usize| [middle[0], middle[1] + ((lines - 1.0) / 2.0 - i as f64) * 1.5 * LETTERS];
+            let line = |i: usize| {
+                [middle[0], middle[1] + ((lines - 1.0) / 2.0 - i as f64) * 1.5 * LETTERS]
+            };
             let letters = Lettering::new(LETTERS);
-            return text.iter().enumerate().flat_map(|(i, t)| letters.centred(line(i), t)).collect();
+            return text
+                .iter()
+                .enumerate()
+                .flat_map(|(i, t)| letters.centred(line(i), t))
+                .collect();
         }
         far += 1.5;
     }
@@ -155,7 +170,9 @@ fn share_out(line: &[Point], seams: &Seams, boards: &mut [Board]) {
         let bits = ((b[0] - a[0]).hypot(b[1] - a[1]) / BIT).ceil().max(1.0) as usize;
         let at = |i: f64| [0, 1].map(|k| a[k] + (b[k] - a[k]) * i / bits as f64);
         for i in 0..bits {
-            let Some(here) = on(at(i as f64 + 0.5), boards) else { continue };
+            // Whole bits only: the end of one may lie beyond the cut.
+            let ends = [i, i + 1].map(|k| on(at(k as f64), boards));
+            let Some(here) = ends[0].filter(|_| ends[0] == ends[1]) else { continue };
             match &mut run {
                 Some((board, points)) if *board == here => points.push(at(i as f64 + 1.0)),
                 _ => {

@@ -73,9 +73,8 @@ impl Seams {
         let size = [high[0] - low[0], high[1] - low[1]];
         let deep = DEEP * detail(thickness);
         let fits = |columns: usize, rows: usize| {
-            let side = |length: f64, n: usize| {
-                length / n as f64 + if n > 1 { deep } else { 0.0 } + GAP
-            };
+            let side =
+                |length: f64, n: usize| length / n as f64 + if n > 1 { deep } else { 0.0 } + GAP;
             let (piece, room) = ([side(size[0], columns), side(size[1], rows)], room(sheet));
             let lies = |[w, h]: [f64; 2]| w <= room[0] && h <= room[1];
             lies(piece) || lies([piece[1], piece[0]])
@@ -97,7 +96,8 @@ impl Seams {
     /// The pieces, row by row.
     pub fn pieces(&self) -> Vec<Piece> {
         let rows = 0..self.y.len() - 1;
-        rows.flat_map(|row| (0..self.x.len() - 1).map(move |column| Piece { column, row })).collect()
+        rows.flat_map(|row| (0..self.x.len() - 1).map(move |column| Piece { column, row }))
+            .collect()
     }
 
     /// Whether the feet of a stand keep clear of all seams.
@@ -109,8 +109,18 @@ impl Seams {
                 .iter()
                 .all(|&at| p.max(q) < at - beside || p.min(q) > at + self.deep + beside)
         };
-        feet.iter()
-            .all(|f| apart(&self.x, [f.a.x, f.b.x]) && apart(&self.y, [f.a.y, f.b.y]))
+        feet.iter().all(|f| apart(&self.x, [f.a.x, f.b.x]) && apart(&self.y, [f.a.y, f.b.y]))
+    }
+
+    /// Lower left and upper right corner of the piece below a point, but for its dovetails.
+    pub fn around(&self, at: Point) -> [Point; 2] {
+        let within = |lines: &[f64], at: f64| {
+            let last = lines.len() - 2;
+            let i = lines.partition_point(|&line| line <= at).saturating_sub(1).min(last);
+            [lines[i], lines[i + 1]]
+        };
+        let ([x0, x1], [y0, y1]) = (within(&self.x, at[0]), within(&self.y, at[1]));
+        [[x0, y0], [x1, y1]]
     }
 
     /// The bands about the seams that dovetails reach into: lower left and upper right corners.
@@ -181,7 +191,7 @@ mod tests {
     #[test]
     fn pieces_fill_the_plate_and_fit_the_sheet() {
         let frame = fixture::circuit(5, 3.0);
-        for sheet in [[600.0, 400.0], [150.0, 130.0], [130.0, 75.0]] {
+        for sheet in [[2000.0, 1500.0], [600.0, 400.0], [400.0, 300.0]] {
             let seams = Seams::of(&frame, sheet, 3.0).unwrap();
             let ([x0, x1], [y0, y1]) = (ends(&seams.x), ends(&seams.y));
             let pieces: Vec<_> = seams.pieces().into_iter().map(|p| seams.outline(p)).collect();

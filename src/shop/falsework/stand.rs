@@ -12,9 +12,11 @@ use crate::ids::{PropId, RodId, UnitId};
 use crate::shop::laser::Point;
 use std::f64::consts::FRAC_PI_3;
 
-/// The angle to either side of straight down up to which a saddle holds a rod. More, and a rod
-/// that is a little thick jams in it; less, and it rolls off.
+/// The angle to either side of straight down up to which a saddle follows the rod. From there
+/// straight cheeks go on: were they to follow it farther, a rod that is a little thick would jam.
 const HOLD: f64 = FRAC_PI_3;
+/// How far the cheeks reach above the axis, in radii: they keep the rod from being knocked off.
+const CHEEK: f64 = 0.5;
 /// How far the straight pieces of a saddle may lie beside its curve, mm.
 const FLATNESS: f64 = 0.002;
 /// Steepest rod that is propped, radians: steeper ones slide down, and stand by themselves.
@@ -59,7 +61,7 @@ pub struct Shape {
     pub half_foot: f64,
     /// Half the width at the head.
     pub half_head: f64,
-    /// The saddle, from left to right; its ends are at the height of the head.
+    /// The saddle with its cheeks, from left to right; its ends are at the height of the head.
     pub saddle: Vec<Point>,
     /// Height of the saddle's lowest point.
     pub seat: f64,
@@ -102,7 +104,7 @@ impl Stand {
         if seat < 3.0 * detail {
             return None;
         }
-        let half_head = self.radius * HOLD.sin() + detail;
+        let half_head = saddle[saddle.len() - 1][0] + detail;
         let half_foot = half_head.max(4.5 * detail).max(self.height / SLENDER);
         Some(Shape {
             half_foot,
@@ -130,7 +132,12 @@ impl Stand {
             let turn = HOLD * (2.0 * i as f64 / pieces as f64 - 1.0);
             [r * turn.sin(), middle - deep * turn.cos()]
         };
-        (0..=pieces).map(point).collect()
+        let curve = (0..=pieces).map(point);
+        // The cheeks are tangents, so a rod that rises from the lower face moves away from them.
+        let rise = (CHEEK + HOLD.cos()) / HOLD.sin();
+        let half = r * (HOLD.sin() + rise * HOLD.cos());
+        let top = middle + CHEEK * deep;
+        [[-half, top]].into_iter().chain(curve).chain([[half, top]]).collect()
     }
 
     /// The way along the prop, and the way along its brace, which is the rod's heading: unit

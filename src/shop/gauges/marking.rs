@@ -147,13 +147,15 @@ mod tests {
         assert!(marking.without.is_empty());
         let [board] = &marking.boards[..] else { panic!("one gauge for five rods alike") };
         let Curve::Path(slot) = &board.holes[0] else { panic!("a slot") };
-        let length = frame.rods[0].axis.length();
+        let length = frame.rods.first().unwrap().axis.length();
         assert!((slot[1][0] - slot[0][0] - length - PLAY).abs() < 1e-9);
         let ticks: Vec<f64> = board
             .scores
             .iter()
             .filter_map(|s| match s {
-                Curve::Path(p) if p.len() == 2 && p[0][0] == p[1][0] && p[0][1] == slot[2][1] + 0.5 => {
+                Curve::Path(p)
+                    if p.len() == 2 && p[0][0] == p[1][0] && p[0][1] == slot[2][1] + 0.5 =>
+                {
                     Some(p[0][0] - slot[0][0])
                 }
                 _ => None,
@@ -162,7 +164,10 @@ mod tests {
         let wanted: Vec<f64> =
             marks(&frame, frame.rods.ids().next().unwrap()).iter().map(|m| m.at).collect();
         assert_eq!(ticks.len(), wanted.len());
-        assert!(ticks.iter().zip(&wanted).all(|(t, w)| (t - w).abs() < 1e-9), "{ticks:?} {wanted:?}");
+        assert!(
+            ticks.iter().zip(&wanted).all(|(t, w)| (t - w).abs() < 1e-9),
+            "{ticks:?} {wanted:?}"
+        );
     }
 
     #[test]

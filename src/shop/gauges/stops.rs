@@ -45,8 +45,7 @@ mod tests {
     fn blocks_are_as_long_as_the_rods_that_are_sawn_most() {
         let frame = fixture::on_sample("igloo", "4.4.4.4");
         let sticks = sticks(&frame);
-        let stock =
-            Stock { bars: vec![Offer::plain(1000.0)], kerf: 1.0, trim: 0.0, keep: None };
+        let stock = Stock { bars: vec![Offer::plain(1000.0)], kerf: 1.0, trim: 0.0, keep: None };
         let plan = plan_some(&sticks, sticks.ids(), &stock).unwrap();
         let blocks = stop_blocks(&plan);
         let classes = classes(&frame);

@@ -188,7 +188,8 @@ mod tests {
                         continue;
                     }
                     // On one line: they may only touch.
-                    let along = |p: Point| (p[0] - a[0]) * (b[0] - a[0]) + (p[1] - a[1]) * (b[1] - a[1]);
+                    let along =
+                        |p: Point| (p[0] - a[0]) * (b[0] - a[0]) + (p[1] - a[1]) * (b[1] - a[1]);
                     let [u, v] = t.map(along);
                     let length = along(b);
                     assert!(u.max(v) <= 0.0 || u.min(v) >= length, "{character}: {s:?} {t:?}");

@@ -3,9 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// What jigs are cut from.
-#[derive(
-    Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, clap::ValueEnum,
-)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Material {
     /// Plywood: the laser takes away 0.20 mm

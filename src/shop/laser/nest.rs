@@ -72,6 +72,9 @@ pub fn nest(sizes: &[[f64; 2]], sheet: [f64; 2]) -> Result<Nest, usize> {
     Ok(Nest { spots, sheets: sheets.len() })
 }
 
+/// A lower left corner, and whether the box is turned.
+type Fit = ([f64; 2], bool);
+
 /// What is free of a sheet: rectangles from corner to corner that may overlap, none within
 /// another. They reach beyond the sheet's margins by the gap that a part needs there only
 /// towards others.
@@ -86,8 +89,9 @@ impl Free {
     }
 
     /// The best place for a box, and whether it is turned.
-    fn fit(&self, [w, h]: [f64; 2]) -> Option<([f64; 2], bool)> {
-        let mut best: Option<([f64; 3], ([f64; 2], bool))> = None;
+    fn fit(&self, [w, h]: [f64; 2]) -> Option<Fit> {
+        let mut best: Option<Fit> = None;
+        let mut least = [f64::INFINITY; 3];
         for &[lo, hi] in &self.0 {
             for (turned, [w, h]) in [(false, [w, h]), (true, [h, w])] {
                 let spare = [hi[0] - lo[0] - w - GAP, hi[1] - lo[1] - h - GAP];
@@ -95,12 +99,12 @@ impl Free {
                     continue;
                 }
                 let key = [spare[0].min(spare[1]), lo[1], lo[0]];
-                if best.is_none_or(|(least, _)| key < least) {
-                    best = Some((key, (lo, turned)));
+                if key < least {
+                    (least, best) = (key, Some((lo, turned)));
                 }
             }
         }
-        best.map(|(_, fit)| fit)
+        best
     }
 
     /// Takes a box out of what is free.
