@@ -154,6 +154,9 @@ impl Settings {
             return Err(setting("laser_kerf", format!("{kerf}mm"), problem));
         }
         let mut kinds = self.jigs.clone().unwrap_or_else(|| Jig::ALL.to_vec());
+        if kinds.is_empty() {
+            return Err(setting("jigs", "[]", "name a kind, or leave it out for all"));
+        }
         kinds.sort_unstable();
         kinds.dedup();
         Ok(JigSettings { kinds, sheet: [width, height], thickness, kerf })
