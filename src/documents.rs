@@ -85,15 +85,7 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
         add_jigs(jigs, design.laser, &mut files)?;
     }
     if design.wants(Part::Pictures) {
-        for (name, picture) in pictures(frame) {
-            files.add(format!("pictures/{name}.svg"), svg::render(&picture)?);
-        }
-        let mut pairs = histogram_pairs(&model.measures, &design.texts)?;
-        if let Some(relaxing) = &model.relaxing {
-            pairs.extend(relaxing_pairs(relaxing, &design.texts)?);
-        }
-        let figures = histograms(&pairs, &design.texts)?;
-        files.add("pictures/histograms.svg", svg::render(&figures)?);
+        add_pictures(design, model, &mut files)?;
     }
     Ok(files.0)
 }
@@ -160,6 +152,20 @@ fn add_support_map(design: &Design, model: &Model, files: &mut Files) -> Result<
     files.add("support-map.dxf", dxf::render(&map, origin)?);
     let sheets = support_map::pages(frame, &settings)?;
     files.add("support-map.pdf", bound(sheets, design, Document::SupportMap)?);
+    Ok(())
+}
+
+/// The frame from the side and from above, and its histograms.
+fn add_pictures(design: &Design, model: &Model, files: &mut Files) -> Result<(), DocumentError> {
+    for (name, picture) in pictures(&model.formed.frame) {
+        files.add(format!("pictures/{name}.svg"), svg::render(&picture)?);
+    }
+    let mut pairs = histogram_pairs(&model.measures, &design.texts)?;
+    if let Some(relaxing) = &model.relaxing {
+        pairs.extend(relaxing_pairs(relaxing, &design.texts)?);
+    }
+    let figures = histograms(&pairs, &design.texts)?;
+    files.add("pictures/histograms.svg", svg::render(&figures)?);
     Ok(())
 }
 

@@ -113,7 +113,8 @@ pub enum JigError {
     },
     /// More sheets than are written unless they are asked for.
     #[error(
-        "they would take {sheets} sheets. Ask for them with --only jigs, or for some of them with --jigs"
+        "they would take {sheets} sheets. Ask for them with --only jigs, or for some of them with \
+         --jigs"
     )]
     TooMany {
         /// How many.
@@ -263,8 +264,12 @@ mod tests {
                     Curve::Circle { .. } => None,
                 });
                 let holes: Vec<_> = rings.collect();
+                let between = |w: &[Point]| {
+                    let at = |t: f64| [0, 1].map(|k| w[0][k] + t * (w[1][k] - w[0][k]));
+                    (0..=10).map(|i| at(f64::from(i) / 10.0)).collect::<Vec<Point>>()
+                };
                 let scored = board.scores.iter().flat_map(|s| match s {
-                    Curve::Path(path) => path.clone(),
+                    Curve::Path(path) => path.windows(2).flat_map(between).collect::<Vec<_>>(),
                     Curve::Circle { .. } => panic!("scores are lines"),
                 });
                 for p in scored.chain(board.engraved.concat()) {

@@ -31,7 +31,9 @@ pub fn plate(
     thickness: f64,
 ) -> Vec<Board> {
     let mut boards = plain(seams);
-    let mut taken: Vec<[Point; 2]> = seams.bands();
+    // A piece that is alone needs no name.
+    let named = if boards.len() > 1 { boards.len() } else { 0 };
+    let mut taken: Vec<[Point; 2]> = Vec::new();
     for (stand, shape) in stands {
         for slot in slots(stand, shape, thickness) {
             taken.push(bounds(&slot));
@@ -43,19 +45,25 @@ pub fn plate(
     let feet = feet::feet(frame);
     let stood = stands.iter().flat_map(|(stand, shape)| stand_ticks(stand, shape, thickness));
     let mut lines: Vec<Vec<Point>> = stood.chain(feet.iter().flat_map(foot_lines)).collect();
+    // A line that the slots of another stand would cut says nothing.
+    lines.retain(|line| !taken.iter().any(|slot| overlap(&bounds(line), slot)));
     taken.extend(lines.iter().map(|line| bounds(line)));
-    for name in piece_names(seams) {
-        taken.push(bounds(&name.concat()));
-        lines.extend(name);
+    taken.extend(seams.bands());
+    for piece in &seams.pieces()[..named] {
+        let corner = [seams.x[piece.column], seams.y[piece.row]];
+        let name = Number { at: corner, lines: &[piece_name(piece)], height: PIECE_LETTERS };
+        lines.extend(name.placed(seams, &mut taken));
     }
     for (stand, _) in stands {
         let unit = stand.unit.map(|u| u.to_string());
         let text: Vec<String> = [stand.id.to_string()].into_iter().chain(unit).collect();
-        lines.extend(number(stand.foot, &text, seams.around(stand.foot), &mut taken));
+        let number = Number { at: stand.foot, lines: &text, height: LETTERS };
+        lines.extend(number.placed(seams, &mut taken));
     }
     for foot in &feet {
-        let at = [foot.x, foot.y];
-        lines.extend(number(at, &[foot.rod.to_string()], seams.around(at), &mut taken));
+        let (at, text) = ([foot.x, foot.y], [foot.rod.to_string()]);
+        let number = Number { at, lines: &text, height: LETTERS };
+        lines.extend(number.placed(seams, &mut taken));
     }
     for line in lines {
         share_out(&line, seams, &mut boards);
@@ -71,20 +79,6 @@ fn plain(seams: &Seams) -> Vec<Board> {
         _ => format!("base plate, piece {}", piece_name(p)),
     };
     pieces.iter().map(|p| Board::new(name(p), seams.outline(*p))).collect()
-}
-
-/// The strokes of each piece's name, in its corner; none of one that is alone.
-fn piece_names(seams: &Seams) -> Vec<Vec<Vec<Point>>> {
-    let mut pieces = seams.pieces();
-    if pieces.len() == 1 {
-        pieces.clear();
-    }
-    let strokes = |piece: &Piece| {
-        let corner = [seams.x[piece.column], seams.y[piece.row]];
-        let start = corner.map(|c| c + seams.deep + FREE);
-        Lettering::new(PIECE_LETTERS).at(start, &piece_name(piece))
-    };
-    pieces.iter().map(strokes).collect()
 }
 
 /// The circle of a foot, and a line the way its rod goes.
@@ -109,45 +103,43 @@ fn stand_ticks(stand: &Stand, shape: &Shape, thickness: f64) -> Vec<Vec<Point>> 
     vec![vec![along(-from), along(-to)], vec![along(from), along(to)]]
 }
 
-/// A number on the first free place about a point, going outward; no number where there is
-/// none.
-fn number(
-    [x, y]: Point,
-    text: &[String],
-    [low, high]: [Point; 2],
-    taken: &mut Vec<[Point; 2]>,
-) -> Vec<Vec<Point>> {
-    let half_width = text.iter().map(|t| width_of(t, LETTERS)).fold(0.0, f64::max) / 2.0;
-    let half_height = LETTERS * (1.5 * text.len() as f64 - 0.5) / 2.0;
-    let (half_width, half_height) = (half_width + FREE, half_height + FREE);
-    let mut far = 3.0;
-    while far < FARTHEST {
-        for turn in 0..16 {
+/// What is written about a point of the plate.
+struct Number<'a> {
+    at: Point,
+    lines: &'a [String],
+    height: f64,
+}
+
+impl Number<'_> {
+    /// Its strokes on the first free place about the point, going outward, on the same piece;
+    /// none where there is no place.
+    fn placed(&self, seams: &Seams, taken: &mut Vec<[Point; 2]>) -> Vec<Vec<Point>> {
+        let [low, high] = seams.around(self.at);
+        let wide = self.lines.iter().map(|t| width_of(t, self.height)).fold(0.0, f64::max);
+        let tall = self.height * (1.5 * self.lines.len() as f64 - 0.5);
+        let half = [wide / 2.0 + FREE, tall / 2.0 + FREE];
+        let far = (0..).map(|i| 3.0 + 1.5 * f64::from(i)).take_while(|far| *far < FARTHEST);
+        for (far, turn) in far.flat_map(|far| (0..16).map(move |turn| (far, turn))) {
             let (sin, cos) = (f64::from(turn) * std::f64::consts::TAU / 16.0).sin_cos();
-            let middle = [x + far * cos, y + far * sin];
-            let place = [
-                [middle[0] - half_width, middle[1] - half_height],
-                [middle[0] + half_width, middle[1] + half_height],
-            ];
+            let middle = [self.at[0] + far * cos, self.at[1] + far * sin];
+            let place = [[0, 1].map(|i| middle[i] - half[i]), [0, 1].map(|i| middle[i] + half[i])];
             let inside = (0..2).all(|i| low[i] < place[0][i] && place[1][i] < high[i]);
-            if !inside || taken.iter().any(|other| overlap(&place, other)) {
-                continue;
+            if inside && !taken.iter().any(|other| overlap(&place, other)) {
+                taken.push(place);
+                return self.strokes(middle);
             }
-            taken.push(place);
-            let lines = text.len() as f64;
-            let line = |i: usize| {
-                [middle[0], middle[1] + ((lines - 1.0) / 2.0 - i as f64) * 1.5 * LETTERS]
-            };
-            let letters = Lettering::new(LETTERS);
-            return text
-                .iter()
-                .enumerate()
-                .flat_map(|(i, t)| letters.centred(line(i), t))
-                .collect();
         }
-        far += 1.5;
+        Vec::new()
     }
-    Vec::new()
+
+    /// Its lines about their middle.
+    fn strokes(&self, [x, y]: Point) -> Vec<Vec<Point>> {
+        let above = |i: usize| (self.lines.len() as f64 - 1.0) / 2.0 - i as f64;
+        let line = |(i, text): (usize, &String)| {
+            Lettering::new(self.height).centred([x, y + above(i) * 1.5 * self.height], text)
+        };
+        self.lines.iter().enumerate().flat_map(line).collect()
+    }
 }
 
 /// Scores a line on the piece that it lies on, or its parts on theirs.

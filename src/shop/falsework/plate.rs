@@ -28,8 +28,8 @@ const BESIDE: f64 = 3.0;
 pub enum PlateError {
     /// It would be of too many pieces.
     #[error(
-        "the base plate of the falsework would be {:.0} × {:.0} mm, more than {MOST_PIECES} pieces of \
-         {:.0} × {:.0} mm sheet", size[0], size[1], sheet[0], sheet[1]
+        "the base plate of the falsework would be {:.0} × {:.0} mm, more than {MOST_PIECES} \
+         pieces of {:.0} × {:.0} mm sheet", size[0], size[1], sheet[0], sheet[1]
     )]
     TooLarge {
         /// Its width and depth, mm.
