@@ -4,7 +4,8 @@
 usage: check_folder.py TOOLS OUT [--everything]
 
 Khronos' glTF validator (0 errors, 0 warnings), qpdf, pdftotext (every rod number is
-found), ezdxf (nothing to mend; a circle at every foot), rsvg-convert on every SVG (with
+found), ezdxf (nothing to mend; a circle at every foot; jigs closed and on their layers),
+rsvg-convert on every SVG (with
 --everything, else on the first). Exit status 0 when all are content. To be run by a
 Python that has ezdxf.
 """
@@ -86,6 +87,37 @@ def check_dxf(file, structure):
             sys.exit(f"{file}: {center} lies outside the extent {low} to {high}")
 
 
+def check_jigs(file):
+    """Sheets for a laser: closed cuts, the layers and colours of the trade, nothing twice."""
+    drawing = ezdxf.readfile(file)
+    audit = drawing.audit()
+    if audit.errors or audit.fixes:
+        sys.exit(f"{file}: {[e.message for e in (audit.errors + audit.fixes)[:5]]}")
+    header = drawing.header
+    if (drawing.dxfversion, header["$INSUNITS"], header["$MEASUREMENT"]) != ("AC1015", 4, 1):
+        sys.exit(f"{file}: not release 2000 in mm")
+    colors = {"CUT": 1, "SCORE": 5, "ENGRAVE": 7, "GUIDE": 8}
+    seen, references = set(), 0
+    for entity in drawing.modelspace():
+        layer, kind = entity.dxf.layer, entity.dxftype()
+        if layer not in colors or drawing.layers.get(layer).dxf.color != colors[layer]:
+            sys.exit(f"{file}: layer {layer}")
+        if kind == "CIRCLE":
+            continue
+        if kind != "LWPOLYLINE" or (layer != "SCORE" and not entity.closed):
+            sys.exit(f"{file}: an open line or a {kind} on {layer}")
+        points = [tuple(round(v, 4) for v in p) for p in entity.get_points("xy")]
+        if layer == "SCORE" and entity.closed:
+            sides = sorted({round(max(v) - min(v), 4) for v in zip(*points)})
+            references += sides == [10.0, 100.0]
+        for a, b in zip(points, points[1:] + points[:1] * entity.closed):
+            if a == b or frozenset((a, b)) in seen:
+                sys.exit(f"{file}: {a} to {b} is of no length or drawn twice")
+            seen.add(frozenset((a, b)))
+    if references != 1:
+        sys.exit(f"{file}: {references} reference rectangles")
+
+
 def check_svgs(files):
     for file in files:
         # Drawn small: what matters is that every element is understood.
@@ -101,6 +133,8 @@ def main():
     check_pdfs(out, rods)
     structure = json.loads((out / "structure.json").read_text(encoding="utf-8"))
     check_dxf(out / "support-map.dxf", structure)
+    for file in sorted(out.glob("jigs*.dxf")) + sorted(out.glob("jigs/*.dxf")):
+        check_jigs(file)
     svgs = sorted(out.rglob("*.svg"))
     check_svgs(svgs if "--everything" in sys.argv else svgs[:1])
     print(f"{out}: {len(rods)} rods, model, papers and {len(svgs)} drawings read well")

@@ -6,11 +6,12 @@ use crate::drawing::{DrawingError, dxf, svg};
 use crate::frame::arrangement::arrangement;
 use crate::pipeline::Model;
 use crate::sheets::labels::labels;
-use crate::sheets::{Document, TextError, document_title, handout, notes};
+use crate::sheets::{Document, LaserProfile, TextError, document_title, handout, jigs, notes};
 use crate::sheets::{
     Sheet, SheetError, SheetSettings, footprint, histogram_pairs, histograms, relaxing_pairs,
 };
 use crate::sheets::{pictures, sheets, step_sheets, support_map};
+use crate::shop::Jigs;
 use crate::shop::lengths::classes;
 use crate::write::assembly::assembly_json;
 use crate::write::cutlist::{cutlist_csv, cutlist_json};
@@ -83,16 +84,11 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
         let sheet = footprint::drawing(plane, &sheet_settings(design, model)?)?;
         files.add("footprint.svg", svg::render(&sheet)?);
     }
+    if let Some(Ok(jigs)) = &model.jigs {
+        add_jigs(jigs, design.laser, &mut files)?;
+    }
     if design.wants(Part::Pictures) {
-        for (name, picture) in pictures(frame) {
-            files.add(format!("pictures/{name}.svg"), svg::render(&picture)?);
-        }
-        let mut pairs = histogram_pairs(&model.measures, &design.texts)?;
-        if let Some(relaxing) = &model.relaxing {
-            pairs.extend(relaxing_pairs(relaxing, &design.texts)?);
-        }
-        let figures = histograms(&pairs, &design.texts)?;
-        files.add("pictures/histograms.svg", svg::render(&figures)?);
+        add_pictures(design, model, &mut files)?;
     }
     Ok(files.0)
 }
@@ -125,6 +121,7 @@ fn report(design: &Design, model: &Model) -> Report {
         shared_lengths: model.formed.shared.as_ref().map(report::shared),
         as_built: model.as_built.as_ref().map(report::as_built),
         tolerance: model.misfit.as_ref().map(report::tolerance),
+        jigs: model.jigs.as_ref().map(report::jigs),
         dropped: report::dropped(&model.formed.frame),
     }
 }
@@ -158,6 +155,39 @@ fn add_support_map(design: &Design, model: &Model, files: &mut Files) -> Result<
     files.add("support-map.dxf", dxf::render(&map, origin)?);
     let sheets = support_map::pages(frame, &settings)?;
     files.add("support-map.pdf", bound(sheets, design, Document::SupportMap)?);
+    Ok(())
+}
+
+/// The frame from the side and from above, and its histograms.
+fn add_pictures(design: &Design, model: &Model, files: &mut Files) -> Result<(), DocumentError> {
+    for (name, picture) in pictures(&model.formed.frame) {
+        files.add(format!("pictures/{name}.svg"), svg::render(&picture)?);
+    }
+    let mut pairs = histogram_pairs(&model.measures, &design.texts)?;
+    if let Some(relaxing) = &model.relaxing {
+        pairs.extend(relaxing_pairs(relaxing, &design.texts)?);
+    }
+    let figures = histograms(&pairs, &design.texts)?;
+    files.add("pictures/histograms.svg", svg::render(&figures)?);
+    Ok(())
+}
+
+/// The sheets for a laser: of several, each in files of its own.
+fn add_jigs(jigs: &Jigs, laser: LaserProfile, files: &mut Files) -> Result<(), DocumentError> {
+    let sheets = jigs::laser_sheets(jigs, laser);
+    let stem = |i: usize| match sheets.len() {
+        1 => "jigs".to_owned(),
+        _ => format!("jigs/sheet-{:02}", i + 1),
+    };
+    for (i, sheet) in sheets.iter().enumerate() {
+        files.add(format!("{}.svg", stem(i)), svg::render(sheet)?);
+    }
+    if laser.reads_dxf() {
+        for (i, sheet) in jigs::cad_sheets(jigs).iter().enumerate() {
+            let origin = [0.0, sheet.height];
+            files.add(format!("{}.dxf", stem(i)), dxf::render(sheet, origin)?);
+        }
+    }
     Ok(())
 }
 

@@ -12,7 +12,7 @@ pub struct Progress {
 }
 
 /// Steps in the order in which they come.
-const STEPS: u64 = 10;
+const STEPS: u64 = 11;
 
 impl Progress {
     /// Shows itself on a terminal unless `quiet`.
@@ -60,6 +60,7 @@ fn doing(step: Step) -> &'static str {
         Step::Tolerance => "trying errors of marks",
         Step::Saw => "planning the cuts",
         Step::Order => "ordering the steps",
+        Step::Jigs => "laying out jigs",
         Step::Draw => "drawing the papers",
         Step::Write => "writing the folder",
     }

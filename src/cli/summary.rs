@@ -11,7 +11,7 @@ use crate::frame::tolerance::{Misfit, Tolerance};
 use crate::ids::RodId;
 use crate::pipeline::Model;
 use crate::shop::lengths::diameters;
-use crate::shop::{Aim, Assembly, CutPlan, Order, Purchase};
+use crate::shop::{Aim, Assembly, CutPlan, JigError, Jigs, Order, Purchase};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -51,6 +51,7 @@ pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) 
     rows.extend(model.assembly.as_ref().map(|assembly| ("assembly", put_together(assembly))));
     rows.extend(model.as_built.as_ref().map(|what| ("as built", as_built(what))));
     rows.extend(model.misfit.as_ref().map(|misfit| ("tolerance", tolerance(misfit))));
+    rows.extend(model.jigs.as_ref().map(|jigs| ("for the laser", lasered(jigs))));
     let mut text = String::new();
     let title = format!("{}: {} reciprocal frame", design.name(), design.tiles.name());
     writeln!(text, "{}", terminal.bold(&title)).expect("writing to a string cannot fail");
@@ -227,6 +228,25 @@ fn put_together(assembly: &Assembly) -> String {
     };
     let steps = assembly.steps.len();
     format!("{from} in {steps} steps, {props}; {} times a rod is lifted{missed}", assembly.lifts())
+}
+
+/// What a laser cuts, or why that is left out.
+fn lasered(jigs: &Result<Jigs, JigError>) -> String {
+    let jigs = match jigs {
+        Ok(jigs) => jigs,
+        Err(e) => return format!("left out: {e}"),
+    };
+    let [width, height] = jigs.sheet;
+    let sheets = match jigs.sheets.len() {
+        1 => "1 sheet".into(),
+        n => format!("{n} sheets"),
+    };
+    let props = match (jigs.props, jigs.unheld.len() + jigs.missed.len()) {
+        (0, 0) => String::new(),
+        (props, 0) => format!(", {props} props"),
+        (props, n) => format!(", {props} props; there is none for {n} more (report.json)"),
+    };
+    format!("{sheets} of {width} × {height} mm{props}")
 }
 
 fn left_out(model: &Model) -> String {

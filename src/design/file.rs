@@ -3,6 +3,7 @@
 use super::{Design, Tiles};
 use crate::frame::fit::Fit;
 use crate::frame::share::Share;
+use crate::sheets::Paper;
 use crate::shop::Order;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -32,6 +33,7 @@ impl Design {
         if let Some(start) = self.given.label_start {
             file.set("label_start", start as i64);
         }
+        self.jig_settings(&mut file);
         if let Some(measured) = &self.measured {
             file.set("as_built", measured.given.to_string_lossy().into_owned());
         }
@@ -47,6 +49,20 @@ impl Design {
         // What follows a table belongs to it, so it comes last.
         self.rod_table(&mut file);
         file.text
+    }
+
+    /// Which jigs are cut by laser, and from what.
+    fn jig_settings(&self, file: &mut TomlFile) {
+        let jigs = &self.jigs;
+        if self.given.jigs.is_some() {
+            file.set("jigs", choice(&jigs.kinds));
+        }
+        let [width, height] = jigs.sheet;
+        file.set("sheet", Paper::Custom { width, height }.to_string());
+        file.set("thickness", mm(jigs.thickness));
+        file.set("material", choice(self.material));
+        file.set("laser_kerf", mm(jigs.kerf));
+        file.set("laser", choice(self.laser));
     }
 
     /// In which order the frame is put together.

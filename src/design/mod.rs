@@ -28,8 +28,9 @@ use crate::frame::sizes::SizeTable;
 use crate::frame::tolerance::Tolerance;
 use crate::pattern::{Pattern, PatternError, ShapeError};
 use crate::sheets::labels::LabelSettings;
-use crate::sheets::{Language, Paper, PaperUnits, TextError, Texts};
-use crate::shop::{OrderSettings, Stock};
+use crate::sheets::{Language, LaserProfile, Paper, PaperUnits, TextError, Texts};
+use crate::shop::laser::Material;
+use crate::shop::{JigSettings, OrderSettings, Stock};
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
 use crate::surface::up::Up;
@@ -68,12 +69,15 @@ pub enum Part {
     SupportMap,
     /// footprint.svg: the flattened surface on its pattern.
     Footprint,
+    /// jigs.svg, jigs.dxf: laser-cut parts; of several sheets jigs/*.svg, jigs/*.dxf. Where it
+    /// is not named, they are left out if they do not fit the sheets
+    Jigs,
     /// pictures/*.svg: the frame from the side and from above, and its histograms.
     Pictures,
 }
 
 /// What is written where nothing is named.
-const ALL_PARTS: [Part; 11] = [
+const ALL_PARTS: [Part; 12] = [
     Part::Structure,
     Part::Csv,
     Part::Cutlist,
@@ -84,6 +88,7 @@ const ALL_PARTS: [Part; 11] = [
     Part::Handout,
     Part::SupportMap,
     Part::Footprint,
+    Part::Jigs,
     Part::Pictures,
 ];
 
@@ -193,6 +198,12 @@ pub struct Design {
     pub texts: Texts,
     /// What rod labels are printed on, and from which label on.
     pub labels: LabelSettings,
+    /// Which jigs are cut, and from what.
+    pub jigs: JigSettings,
+    /// What they are cut from: sets how wide the laser cuts, where that is not given.
+    pub material: Material,
+    /// The laser that cuts them.
+    pub laser: LaserProfile,
     /// What was measured on sticks, if the frame is to be solved again with it.
     pub measured: Option<MeasuredTable>,
     /// How exact marks and sticks are, if it is to be tried what that does.
@@ -263,6 +274,11 @@ impl Design {
     /// Where the folder goes when the user does not say: beside where we are.
     pub fn default_folder(&self) -> PathBuf {
         PathBuf::from(format!("{}-frame", self.name()))
+    }
+
+    /// Whether a part is named, and not only written with all others.
+    pub fn names(&self, part: Part) -> bool {
+        self.given.only.iter().flatten().any(|&named| named == part)
     }
 
     /// Whether a part is to be written.

@@ -5,9 +5,9 @@ use crate::frame::close::Way;
 use crate::frame::share::Share;
 use crate::frame::tolerance::Tolerance;
 use crate::pattern::{Pattern, Shape, library};
-use crate::sheets::Texts;
 use crate::sheets::labels::LabelSettings;
-use crate::shop::{Offer, OrderSettings, Stock};
+use crate::sheets::{Paper, Texts};
+use crate::shop::{Jig, JigSettings, Offer, OrderSettings, Stock};
 use crate::tiling::conway::Notation;
 use crate::units::{Angle, Length};
 use std::path::{Path, PathBuf};
@@ -83,6 +83,9 @@ impl Settings {
                 Some(own) => Texts::with_folder(language, &beside(folders.templates, own))?,
             },
             labels: self.labels()?,
+            jigs: self.jigs()?,
+            material: self.material.unwrap_or_default(),
+            laser: self.laser.unwrap_or_default(),
             measured: self.measured(folders.as_built)?,
             tolerance: self.tolerance()?,
             seed: self.seed.unwrap_or(DEFAULT_SEED),
@@ -121,6 +124,42 @@ impl Settings {
             return Err(setting("label_start", start, problem));
         }
         Ok(LabelSettings { medium, used: start - 1 })
+    }
+
+    /// Which jigs are cut, and from what.
+    fn jigs(&self) -> Result<JigSettings, DesignError> {
+        let sheet = self.sheet.unwrap_or(DEFAULT_SHEET);
+        let [width, height] = sheet.size();
+        if width < LEAST_SHEET[0] || height < LEAST_SHEET[1] {
+            let problem = format!(
+                "a sheet is at least {} mm wide and {} mm high",
+                LEAST_SHEET[0], LEAST_SHEET[1]
+            );
+            return Err(setting("sheet", sheet, problem));
+        }
+        let thickness = positive("thickness", self.thickness)?.unwrap_or(DEFAULT_THICKNESS);
+        if thickness > MOST_THICKNESS {
+            let given = format!("{thickness}mm");
+            let problem = format!("a laser cuts boards of up to {MOST_THICKNESS} mm");
+            return Err(setting("thickness", given, problem));
+        }
+        let usual = self.material.unwrap_or_default().kerf();
+        let kerf = not_negative("laser_kerf", self.laser_kerf)?.unwrap_or(usual);
+        // Slots are as wide as the board is thick, and half of that is to be left of them.
+        if kerf > thickness / 2.0 {
+            let problem = format!(
+                "a cut is at most half as wide as the board is thick, which is {thickness} mm \
+                 (--thickness)"
+            );
+            return Err(setting("laser_kerf", format!("{kerf}mm"), problem));
+        }
+        let mut kinds = self.jigs.clone().unwrap_or_else(|| Jig::ALL.to_vec());
+        if kinds.is_empty() {
+            return Err(setting("jigs", "[]", "name a kind, or leave it out for all"));
+        }
+        kinds.sort_unstable();
+        kinds.dedup();
+        Ok(JigSettings { kinds, sheet: [width, height], thickness, kerf })
     }
 
     fn density(&self) -> Result<f64, DesignError> {
@@ -294,6 +333,14 @@ const DEFAULT_KERF: f64 = 1.0;
 /// Density of the rods when none is given, kg/m³: most softwoods are of 450 to 650, beech
 /// and oak of 700.
 const DEFAULT_DENSITY: f64 = 600.0;
+/// Sheets for a laser when none are given: what most hobby machines and shops take.
+const DEFAULT_SHEET: Paper = Paper::Custom { width: 600.0, height: 400.0 };
+/// Least width and height of a sheet, mm: the reference rectangle and a part beside it.
+const LEAST_SHEET: [f64; 2] = [120.0, 60.0];
+/// Thickness of those sheets, mm: sold everywhere, and stiff enough.
+const DEFAULT_THICKNESS: f64 = 3.0;
+/// Thickest board that is cut by laser, mm.
+const MOST_THICKNESS: f64 = 25.0;
 /// Step of cut lengths, mm: what can be marked and sawn by hand.
 const DEFAULT_ROUND: f64 = 0.5;
 

@@ -7,8 +7,9 @@ use crate::frame::close::Way;
 use crate::frame::layer::Layering;
 use crate::frame::relax::Relax;
 use crate::sheets::labels::LabelMedium;
-use crate::sheets::{Language, Paper, PaperUnits};
-use crate::shop::Order;
+use crate::sheets::{Language, LaserProfile, Paper, PaperUnits};
+use crate::shop::laser::Material;
+use crate::shop::{Jig, Order};
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
 use crate::surface::up::Up;
@@ -183,6 +184,31 @@ pub struct Settings {
     #[arg(long, value_name = "N")]
     pub label_start: Option<usize>,
 
+    /// What is cut by laser [default: all]
+    #[arg(long, value_name = "JIGS", value_delimiter = ',', num_args = 1, value_enum)]
+    pub jigs: Option<Vec<Jig>>,
+
+    /// Sheets that a laser cuts jigs from, as width x height [default: 600x400mm]
+    #[arg(long, value_name = "SIZE")]
+    pub sheet: Option<Paper>,
+
+    /// Thickness of those sheets, as measured [default: 3mm]
+    #[arg(long, value_name = "LENGTH")]
+    pub thickness: Option<Length>,
+
+    /// What they are of [default: ply]
+    #[arg(long, value_enum)]
+    pub material: Option<Material>,
+
+    /// Full width that the laser takes away; 0 draws parts at their exact size [default: 0.20mm in
+    /// ply, 0.18mm in mdf, 0.15mm in acrylic and card]
+    #[arg(long, value_name = "LENGTH")]
+    pub laser_kerf: Option<Length>,
+
+    /// The laser, or the program or service that cuts [default: generic]
+    #[arg(long, value_enum)]
+    pub laser: Option<LaserProfile>,
+
     /// Solve the frame again with what was measured on the sticks: a CSV file with the columns
     /// rod, mate or contact, mark, diameter (README, "Sticks as they are"). Rods in it are sawn:
     /// they keep their length, and contacts come to lie at their marks
@@ -263,6 +289,12 @@ impl Settings {
             // A half-used sheet is one of the labels that it was named for.
             label_start: self.label_start.or(other.label_start.filter(|_| self.labels.is_none())),
             labels: self.labels.or(other.labels),
+            jigs: self.jigs.or(other.jigs),
+            sheet: self.sheet.or(other.sheet),
+            thickness: self.thickness.or(other.thickness),
+            material: self.material.or(other.material),
+            laser_kerf: self.laser_kerf.or(other.laser_kerf),
+            laser: self.laser.or(other.laser),
             as_built: self.as_built.or(other.as_built),
             tolerance: self.tolerance.or(other.tolerance),
             seed: self.seed.or(other.seed),

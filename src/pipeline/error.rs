@@ -6,6 +6,7 @@ use crate::frame::canvas::PlaneError;
 use crate::frame::fit::FitError;
 use crate::frame::form::FormError;
 use crate::linalg::LinalgError;
+use crate::shop::JigError;
 use crate::shop::saw::CutError;
 use crate::surface::prepare::PrepareError;
 use crate::surface::read::ReadError;
@@ -85,6 +86,9 @@ pub enum BuildError {
     /// The assembly order.
     #[error("the order of assembly cannot be found: {0}")]
     Order(LinalgError),
+    /// What a laser cuts.
+    #[error(transparent)]
+    Jigs(#[from] JigError),
     /// The sawing plan.
     #[error("{0}. {hint}", hint = sentence(&.0.hint()))]
     Cut(#[from] CutError),

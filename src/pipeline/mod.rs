@@ -7,7 +7,7 @@ mod smaller;
 pub use error::{BuildError, UNEVEN_ADVICE};
 
 use crate::chart::PlanarChart;
-use crate::design::{Design, MeasuredTable, Sphere, Tiles};
+use crate::design::{Design, MeasuredTable, Part, Sphere, Tiles};
 use crate::frame::arrangement::arrangement;
 use crate::frame::as_built::{AsBuilt, Cutting, as_built};
 use crate::frame::canvas::{Canvas, MeshTiles, PlaneCanvas, SphereTiles};
@@ -23,7 +23,7 @@ use crate::ids::RodId;
 use crate::pattern::{Pattern, Shape};
 use crate::shop::lengths::sticks;
 use crate::shop::saw::{CutPlan, Offer, plan_some};
-use crate::shop::{Assembly, assembly};
+use crate::shop::{Assembly, JigError, Jigs, assembly, jigs};
 use crate::surface::prepare::{Prepared, prepare, prepare_polygons};
 use crate::surface::read::{read, read_polygons};
 use crate::surface::topology::require_chartable;
@@ -56,6 +56,9 @@ pub struct Model {
     pub plan: CutPlan,
     /// In which order it is put together; of models that are only tried, none.
     pub assembly: Option<Assembly>,
+    /// What a laser cuts for it, or why that is left out; of models for which it is not
+    /// wanted, none.
+    pub jigs: Option<Result<Jigs, JigError>>,
 }
 
 /// The steps of a run, as they begin.
@@ -81,6 +84,8 @@ pub enum Step {
     Saw,
     /// Finding the order in which it is put together.
     Order,
+    /// Laying out what a laser cuts.
+    Jigs,
     /// Drawing and encoding the documents.
     Draw,
     /// Writing the folder.
@@ -105,8 +110,29 @@ pub fn build(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, Buil
     let tied = arrangement(&model.formed).tied;
     let assembly = assembly(&model.formed.frame, &tied, design.order);
     model.assembly = Some(assembly.map_err(BuildError::Order)?);
+    if design.wants(Part::Jigs) {
+        begin(Step::Jigs);
+        model.jigs = Some(lasered(design, &model)?);
+    }
     Ok(model)
 }
+
+/// What a laser cuts for a model. What is wrong with it is an error only where jigs are named:
+/// else they are left out.
+fn lasered(design: &Design, model: &Model) -> Result<Result<Jigs, JigError>, JigError> {
+    let jigs = jigs(&model.formed.frame, &model.plan, model.assembly.as_ref(), &design.jigs);
+    if design.names(Part::Jigs) {
+        return jigs.map(Ok);
+    }
+    Ok(jigs.and_then(|jigs| match jigs.sheets.len() {
+        sheets if sheets > MOST_SHEETS => Err(JigError::TooMany { sheets }),
+        _ => Ok(jigs),
+    }))
+}
+
+/// More sheets for a laser are written only where they are named: nobody cuts so many who did not
+/// mean to.
+const MOST_SHEETS: usize = 30;
 
 /// The model as planned, whatever was measured.
 fn planned(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, BuildError> {
@@ -314,6 +340,7 @@ fn finish(
         misfit: None,
         plan,
         assembly: None,
+        jigs: None,
     })
 }
 

@@ -3,7 +3,8 @@
 //! [`sheets`] gives the pages of the workshop document: cover, figures, parts, cut list with
 //! sawing plan, rod cards, the steps of assembly and the table of feet. [`histograms`] shows
 //! some of the figures. [`support_map`] gives the map of the feet at full size, in one piece and
-//! tiled over pages, [`footprint`] the surface laid flat, [`labels`] a label for each rod.
+//! tiled over pages, [`footprint`] the surface laid flat, [`labels`] a label for each rod,
+//! [`jigs`] the sheets for a laser.
 //! [`pattern_picture`], [`pattern_sheet`] and [`contact_sheet`] show what there is to choose
 //! from. Nothing here writes files: pages are rendered by [`drawing::pdf`](crate::drawing::pdf) and [`drawing::svg`](crate::drawing::svg).
 
@@ -16,6 +17,7 @@ pub mod footprint;
 mod format;
 pub mod handout;
 mod histograms;
+pub mod jigs;
 pub mod labels;
 mod legend;
 mod line_picture;
@@ -26,6 +28,7 @@ mod parts;
 mod pattern_picture;
 mod pattern_sheet;
 mod pictures;
+mod profile;
 mod rod_cards;
 mod step_labels;
 mod step_picture;
@@ -49,6 +52,7 @@ pub use paper::{Paper, PaperError};
 pub use pattern_picture::{PictureError, pattern_picture};
 pub use pattern_sheet::{PatternEntry, pattern_sheet};
 pub use pictures::pictures;
+pub use profile::LaserProfile;
 pub use text::{Language, TextError, Texts, built_in_files};
 
 use crate::drawing::DrawingError;

@@ -4,7 +4,11 @@
 //! Everything here is read off a finished [`Frame`](crate::frame::Frame); nothing
 //! changes it. Lengths in mm, angles in radians. No paper and no file formats.
 
+pub mod falsework;
 pub mod feet;
+pub mod gauges;
+pub mod jigs;
+pub mod laser;
 pub mod lengths;
 pub mod marks;
 pub mod order;
@@ -14,6 +18,7 @@ pub mod saw;
 pub(crate) use crate::frame::fixture;
 
 pub use feet::{Foot, feet};
+pub use jigs::{Jig, JigError, JigSettings, Jigs, jigs};
 pub use lengths::{LengthClass, LengthClasses, Stick, classes};
 pub use marks::{Mark, Side, marks};
 pub use order::{Assembly, Order, OrderSettings, assembly};

@@ -14,8 +14,8 @@ use crate::frame::relax::Relaxing;
 use crate::frame::share::Shared;
 use crate::frame::tolerance::{Misfit, TRIALS, UnitOff};
 use crate::ids::RodId;
-use crate::shop::Assembly;
 use crate::shop::saw::{Aim, CutPlan};
+use crate::shop::{Assembly, JigError, Jigs};
 use serde::Serialize;
 
 /// The report of a run.
@@ -48,6 +48,9 @@ pub struct Report {
     /// What errors of marks and diameters do, if that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<Tolerances>,
+    /// What a laser cuts.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub jigs: Option<JigFigures>,
     pub dropped: Vec<DroppedUnit>,
 }
 
@@ -224,6 +227,29 @@ pub struct UnitTolerance {
     pub p95: f64,
 }
 
+/// What a laser cuts, or why that is left out.
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
+pub enum JigFigures {
+    /// Jigs on sheets.
+    Cut {
+        sheets: usize,
+        /// Width and height of a sheet.
+        sheet: [f64; 2],
+        parts: usize,
+        /// Props of the falsework.
+        props: usize,
+        /// Units that no prop holds: they lie too low or too steep for one, or there is no room.
+        units_without_prop: Vec<String>,
+        /// Props of the assembly that the falsework has no room for.
+        props_without_room: Vec<String>,
+        /// Rods to be marked on their cards.
+        rods_without_gauge: Vec<String>,
+    },
+    /// None.
+    LeftOut { left_out: String },
+}
+
 /// A unit that was left out.
 #[derive(Clone, Debug, Serialize)]
 pub struct DroppedUnit {
@@ -352,6 +378,22 @@ pub fn tolerance(misfit: &Misfit) -> Tolerances {
         median: um(misfit.overall.median),
         p95: um(misfit.overall.p95),
         units: misfit.units.iter().map(unit).collect(),
+    }
+}
+
+/// What a laser cuts, or why that is left out.
+pub fn jigs(jigs: &Result<Jigs, JigError>) -> JigFigures {
+    match jigs {
+        Ok(jigs) => JigFigures::Cut {
+            sheets: jigs.sheets.len(),
+            sheet: jigs.sheet,
+            parts: jigs.sheets.iter().map(Vec::len).sum(),
+            props: jigs.props,
+            units_without_prop: jigs.unheld.iter().map(ToString::to_string).collect(),
+            props_without_room: jigs.missed.iter().map(ToString::to_string).collect(),
+            rods_without_gauge: jigs.unmarked.iter().map(ToString::to_string).collect(),
+        },
+        Err(e) => JigFigures::LeftOut { left_out: e.to_string() },
     }
 }
 

@@ -86,6 +86,8 @@ fn a_run_writes_every_file_of_the_folder_and_the_same_bytes_twice() {
         "cutlist.json",
         "cutlist.csv",
         "model.glb",
+        "assembly.json",
+        "assembly.glb",
         "sheets.pdf",
         "handout.pdf",
         "support-map.svg",

@@ -7,6 +7,7 @@ mod converting;
 mod footprint;
 mod forming;
 mod inspecting;
+mod jigs;
 mod labels;
 mod order;
 mod papers;
