@@ -86,6 +86,7 @@ fn a_run_writes_every_file_of_the_folder_and_the_same_bytes_twice() {
         "cutlist.json",
         "cutlist.csv",
         "model.glb",
+        "viewer.html",
         "sheets.pdf",
         "handout.pdf",
         "support-map.svg",

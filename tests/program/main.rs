@@ -20,3 +20,4 @@ mod sizes;
 mod strips;
 mod tiles;
 mod tolerance;
+mod viewer;
