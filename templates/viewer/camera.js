@@ -17,7 +17,7 @@ function lookHome() {
   const high = [0, 1, 2].map((i) => data.rods.reduce((m, r) => Math.max(m, r.a[i], r.b[i]), -Infinity));
   camera.target = [0, 1, 2].map((i) => (low[i] + high[i]) / 2);
   camera.size = Math.hypot(...sub(high, low)) / 2;
-  camera.distance = (camera.size * 0.95) / Math.sin(Math.atan(OPENING));
+  camera.distance = (camera.size * 0.85) / Math.sin(Math.atan(OPENING));
   camera.heading = -Math.PI / 3;
   camera.height = Math.PI / 6;
 }

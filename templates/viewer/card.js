@@ -15,9 +15,9 @@ function markTable(rod) {
     make("td", { class: "key" }, m.letter),
     make("td", { class: "figure key" }, m.at),
     make("td", { class: "key" }, m.side),
-    make("td", {}, rodButton(m.mate, data.rods[m.mate].id), ` ${m.text}`),
+    make("td", { class: "whole" }, rodButton(m.mate, data.rods[m.mate].id), ` ${m.text}`),
     make("td", { class: "figure" }, m.angle),
-    make("td", {}, `${m.clock}, ${m.word}`));
+    make("td", {}, m.clock, make("br", {}), m.word));
   return make("table", {}, make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...rod.marks.map(row)));
 }
 

@@ -76,7 +76,9 @@ function painter(canvas) {
     gl.uniform3fv(eye, cameraAxes().eye);
     gl.drawArraysInstanced(gl.TRIANGLES, 0, shape.length / 4, count);
   };
-  return { load, draw, finish: () => gl.finish() };
+  // Reading a pixel back waits until all is drawn.
+  const finish = () => gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  return { load, draw, finish };
 }
 
 function attribute(gl, program, name, size, stride, from, each) {

@@ -20,7 +20,7 @@ function rodColor(index, mates, look) {
   let color = look.wood;
   if (state.colors === "border") color = rod.border ? BORDER : INNER;
   if (state.colors === "classes") color = PALETTE[rod.k % PALETTE.length];
-  if (isNew(rod)) return state.colors === "plain" ? NEW : color;
+  if (isNew(rod)) return state.colors === "plain" || state.colors === "sides" ? NEW : color;
   return state.step === null ? color : blend(color, look.room);
 }
 
