@@ -31,7 +31,8 @@ fn contacts(dir: &Path) -> BTreeMap<(String, String), [f64; 3]> {
         let row = row.unwrap();
         let figure = |name: &str| row[name].parse::<f64>().unwrap();
         for side in ["over", "under"] {
-            let [at, clock] = ["at_SIDE_mm", "clock_SIDE_deg"].map(|n| figure(&n.replace("SIDE", side)));
+            let [at, clock] =
+                ["at_SIDE_mm", "clock_SIDE_deg"].map(|n| figure(&n.replace("SIDE", side)));
             let key = (row["id"].clone(), row[side].clone());
             found.insert(key, [at, figure("angle_deg"), clock]);
         }

@@ -203,11 +203,7 @@ fn steps(
 }
 
 fn prop(prop: &Prop) -> PropData {
-    PropData {
-        id: prop.id.to_string(),
-        point: point(&prop.point),
-        height: hundredths(prop.height),
-    }
+    PropData { id: prop.id.to_string(), point: point(&prop.point), height: hundredths(prop.height) }
 }
 
 fn places(rods: &[RodId]) -> Vec<usize> {
