@@ -6,6 +6,7 @@ use crate::drawing::{DrawingError, dxf, svg};
 use crate::frame::arrangement::arrangement;
 use crate::pipeline::Model;
 use crate::sheets::labels::labels;
+use crate::sheets::viewer::viewer;
 use crate::sheets::{Document, LaserProfile, TextError, document_title, handout, jigs, notes};
 use crate::sheets::{
     Sheet, SheetError, SheetSettings, footprint, histogram_pairs, histograms, relaxing_pairs,
@@ -60,6 +61,10 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
     }
     if design.wants(Part::Glb) {
         files.add("model.glb", glb(&structure)?);
+    }
+    if design.wants(Part::Viewer) {
+        let settings = sheet_settings(design, model)?;
+        files.add("viewer.html", viewer(frame, model.assembly.as_ref(), &settings)?);
     }
     if design.wants(Part::Sheets) {
         add_sheets(design, model, &mut files)?;

@@ -59,6 +59,8 @@ pub enum Part {
     Steps,
     /// model.glb
     Glb,
+    /// viewer.html: the frame, its rod cards and its steps in a browser.
+    Viewer,
     /// sheets.pdf, sheets/*.svg
     Sheets,
     /// labels.pdf, labels/*.svg
@@ -77,12 +79,13 @@ pub enum Part {
 }
 
 /// What is written where nothing is named.
-const ALL_PARTS: [Part; 12] = [
+const ALL_PARTS: [Part; 13] = [
     Part::Structure,
     Part::Csv,
     Part::Cutlist,
     Part::Assembly,
     Part::Glb,
+    Part::Viewer,
     Part::Sheets,
     Part::Labels,
     Part::Handout,

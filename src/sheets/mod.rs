@@ -4,7 +4,7 @@
 //! sawing plan, rod cards, the steps of assembly and the table of feet. [`histograms`] shows
 //! some of the figures. [`support_map`] gives the map of the feet at full size, in one piece and
 //! tiled over pages, [`footprint`] the surface laid flat, [`labels`] a label for each rod,
-//! [`jigs`] the sheets for a laser.
+//! [`jigs`] the sheets for a laser, [`viewer`] a page for a browser.
 //! [`pattern_picture`], [`pattern_sheet`] and [`contact_sheet`] show what there is to choose
 //! from. Nothing here writes files: pages are rendered by [`drawing::pdf`](crate::drawing::pdf) and [`drawing::svg`](crate::drawing::svg).
 
@@ -40,6 +40,7 @@ pub mod support_map;
 mod support_tiles;
 pub mod text;
 mod view;
+pub mod viewer;
 
 #[cfg(test)]
 mod tests;
@@ -88,6 +89,9 @@ pub enum SheetError {
     /// A text cannot be put together.
     #[error(transparent)]
     Text(#[from] TextError),
+    /// The data of a page cannot be written.
+    #[error("the data of the viewer cannot be written: {0}")]
+    Data(#[from] serde_json::Error),
     /// The paper leaves no room for the pages.
     #[error(
         "paper of {width} × {height} mm is too small: the pages need at least {least_width} × {least_height} mm"

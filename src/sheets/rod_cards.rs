@@ -182,7 +182,7 @@ impl<'a> Book<'a> {
     }
 
     /// What a rod that stands on the ground needs.
-    fn feet_of(&self, rod: RodId) -> Result<Vec<String>, TextError> {
+    pub fn feet_of(&self, rod: RodId) -> Result<Vec<String>, TextError> {
         let (settings, format) = (self.settings, self.settings.format());
         let feet = self.feet.get(&rod).map_or(&[][..], Vec::as_slice);
         let lines = |foot: &Foot| {
@@ -204,8 +204,9 @@ impl<'a> Book<'a> {
         Ok(lines.into_iter().flatten().collect())
     }
 }
+
 /// What becomes of a rod at a mark.
-fn word(mark: &Mark, settings: &SheetSettings) -> Result<String, TextError> {
+pub(super) fn word(mark: &Mark, settings: &SheetSettings) -> Result<String, TextError> {
     match (mark.side, mark.ending) {
         (Side::Meets(End::A), _) => settings.say(say::Meets { end: "A".to_owned() }),
         (Side::Meets(End::B), _) => settings.say(say::Meets { end: "B".to_owned() }),

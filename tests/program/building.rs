@@ -88,6 +88,7 @@ fn a_run_writes_every_file_of_the_folder_and_the_same_bytes_twice() {
         "model.glb",
         "assembly.json",
         "assembly.glb",
+        "viewer.html",
         "sheets.pdf",
         "handout.pdf",
         "support-map.svg",

@@ -21,3 +21,4 @@ mod sizes;
 mod strips;
 mod tiles;
 mod tolerance;
+mod viewer;

@@ -3,7 +3,7 @@
 use super::message::Entry;
 use crate::sheets::{
     cover, cut_list, figures, footprint, handout, histograms, labels, legend, notes, page, parts,
-    rod_cards, step_text, strip, support_map, support_tiles,
+    rod_cards, step_text, strip, support_map, support_tiles, viewer,
 };
 use serde::{Deserialize, Serialize};
 
@@ -87,6 +87,7 @@ pub(super) const FILES: &[MessageFile] = &[
     file!("steps.toml", step_text::say::ENTRIES),
     file!("labels.toml", labels::say::ENTRIES),
     file!("support-map.toml", support_map::say::ENTRIES, support_tiles::say::ENTRIES),
+    file!("viewer.toml", viewer::say::ENTRIES),
 ];
 
 /// The handout: one template of CommonMark.
