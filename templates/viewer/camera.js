@@ -22,6 +22,13 @@ function lookHome() {
   camera.height = Math.PI / 6;
 }
 
+/** Walks round the frame to the side where a rod lies, and looks at it from above. */
+function walkTo(rod) {
+  const [x, y] = [0, 1].map((i) => (rod.a[i] + rod.b[i]) / 2 - camera.target[i]);
+  if (Math.hypot(x, y) > camera.size / 20) camera.heading = Math.atan2(y, x);
+  camera.height = Math.max(camera.height, Math.PI / 6);
+}
+
 /** Eye, and the unit vectors ahead, to the right and up. */
 function cameraAxes() {
   const [c, s] = [Math.cos(camera.height), Math.sin(camera.height)];

@@ -46,7 +46,9 @@ part("search").addEventListener("submit", (e) => e.preventDefault());
 part("find").addEventListener("input", (e) => {
   const rod = findRod(e.target.value);
   part("found").textContent = rod === null && e.target.value.trim() ? data.words["not-found"] : "";
-  if (rod !== null) choose(rod);
+  if (rod === null) return;
+  walkTo(data.rods[rod]);
+  choose(rod);
 });
 part("colors").addEventListener("change", (e) => { state.colors = e.target.value; changed(); });
 part("ends").addEventListener("change", (e) => { state.ends = e.target.checked; changed(); });
