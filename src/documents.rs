@@ -2,7 +2,7 @@
 
 use crate::design::{Design, Part};
 use crate::drawing::pdf::{self, DocumentInfo, Page};
-use crate::drawing::{DrawingError, dxf, svg};
+use crate::drawing::{Drawing, DrawingError, dxf, svg};
 use crate::frame::arrangement::arrangement;
 use crate::pipeline::Model;
 use crate::sheets::labels::labels;
@@ -178,19 +178,22 @@ fn add_pictures(design: &Design, model: &Model, files: &mut Files) -> Result<(),
 }
 
 /// The sheets for a laser: of several, each in files of its own.
+/// All sheets in one file, and where there are several, each in its own as well.
 fn add_jigs(jigs: &Jigs, laser: LaserProfile, files: &mut Files) -> Result<(), DocumentError> {
-    let sheets = jigs::laser_sheets(jigs, laser);
-    let stem = |i: usize| match sheets.len() {
-        1 => "jigs".to_owned(),
-        _ => format!("jigs/sheet-{:02}", i + 1),
+    let named = |sheets: Vec<Drawing>| {
+        let all = ("jigs".to_owned(), jigs::together(&sheets));
+        let single = if sheets.len() > 1 { sheets } else { Vec::new() };
+        let stem = |i: usize| format!("jigs/sheet-{:02}", i + 1);
+        let single = single.into_iter().enumerate().map(move |(i, sheet)| (stem(i), sheet));
+        [all].into_iter().chain(single)
     };
-    for (i, sheet) in sheets.iter().enumerate() {
-        files.add(format!("{}.svg", stem(i)), svg::render(sheet)?);
+    for (stem, drawing) in named(jigs::laser_sheets(jigs, laser)) {
+        files.add(format!("{stem}.svg"), svg::render(&drawing)?);
     }
     if laser.reads_dxf() {
-        for (i, sheet) in jigs::cad_sheets(jigs).iter().enumerate() {
-            let origin = [0.0, sheet.height];
-            files.add(format!("{}.dxf", stem(i)), dxf::render(sheet, origin)?);
+        for (stem, drawing) in named(jigs::cad_sheets(jigs)) {
+            let origin = [0.0, drawing.height];
+            files.add(format!("{stem}.dxf"), dxf::render(&drawing, origin)?);
         }
     }
     Ok(())

@@ -4,7 +4,7 @@
 //! burnt first: engraving, scoring, inner cuts, and outer cuts last, when a part may drop.
 
 use super::profile::LaserProfile;
-use crate::drawing::{Color, Draw, Drawing, Figure, Paint, Point, Shape, Stroke};
+use crate::drawing::{Color, Draw, Drawing, Figure, Paint, Placement, Point, Shape, Stroke};
 use crate::shop::Jigs;
 use crate::shop::laser::{Board, Curve, MARGIN, REFERENCE, rectangle};
 
@@ -44,6 +44,27 @@ pub fn cad_sheets(jigs: &Jigs) -> Vec<Drawing> {
         drawing
     };
     jigs.sheets.iter().map(sheet).collect()
+}
+
+/// Between sheets that stand on one drawing, mm.
+const APART: f64 = 20.0;
+
+/// All sheets on one drawing, one below the other.
+pub fn together(sheets: &[Drawing]) -> Drawing {
+    let width = sheets.iter().map(|sheet| sheet.width).fold(0.0, f64::max);
+    let height: f64 = sheets.iter().map(|sheet| sheet.height + APART).sum();
+    let mut all = Drawing::new(width, (height - APART).max(0.0));
+    // In the order in which they are burnt, also where the first sheet lacks one.
+    for layer in [ENGRAVE, SCORE, CUT, CUT_INNER, CUT_OUTER, GUIDE] {
+        all.layer(layer);
+    }
+    let mut top = 0.0;
+    for sheet in sheets {
+        all.place_drawing(sheet, &Placement::at([0.0, top]));
+        top += sheet.height + APART;
+    }
+    all.layers.retain(|layer| !layer.items.is_empty());
+    all
 }
 
 /// How each kind of line is painted.

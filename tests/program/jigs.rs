@@ -45,8 +45,15 @@ fn sheets_are_plain_lines_in_the_order_in_which_they_are_burnt() {
     let dir = tempdir().unwrap();
     let files = jigs(dir.path(), &[]);
     let svgs: Vec<_> = files.iter().filter(|(name, _)| name.ends_with(".svg")).collect();
-    assert!(svgs.len() > 1 && files.len() == 2 * svgs.len());
-    for (name, text) in svgs {
+    assert!(svgs.len() > 2 && files.len() == 2 * svgs.len());
+    let (all, sheets): (Vec<_>, Vec<_>) = svgs.into_iter().partition(|f| f.0 == "jigs.svg");
+    let figures = |text: &str| text.matches("<poly").count() + text.matches("<circle").count();
+    let single: usize = sheets.iter().map(|(_, text)| figures(text)).sum();
+    assert_eq!(figures(all[0].1), single);
+    let height = 420 * sheets.len() - 20;
+    assert!(all[0].1.contains("width=\"600mm\""));
+    assert!(all[0].1.contains(&format!("viewBox=\"0 0 600 {height}\"")));
+    for (name, text) in sheets {
         assert!(text.contains("width=\"600mm\"") && text.contains("viewBox=\"0 0 600 400\""));
         for word in ["<text", "style", "transform", "clip", "<path", "<line"] {
             assert!(!text.contains(word), "{name} has {word}");
