@@ -9,6 +9,8 @@ use crate::shop::lengths::sticks;
 use crate::shop::{OrderSettings, Stock, assembly, feet, fixture, marks, saw};
 use std::sync::LazyLock;
 
+mod maps;
+
 static LAID: LazyLock<(Frame, Footprint, Measures)> =
     LazyLock::new(|| fixture::laid_on_sample("igloo", "4.4.4.4", [0.0; 2], 0.3));
 static IGLOO: LazyLock<Frame> = LazyLock::new(|| LAID.0.clone());
@@ -78,7 +80,7 @@ fn texts_stay_on_the_page_and_apart() {
     let circuit = fixture::circuit(5, 8.0);
     let station = fixture::on_sample("train-station", "6.6.6");
     let small = Paper::Custom { width: 145.0, height: 200.0 };
-    for frame in [&*IGLOO, &station, &circuit, &huge()] {
+    for frame in [&*IGLOO, &station, &circuit, &maps::huge()] {
         for (paper, units) in [
             (Paper::A4, PaperUnits::Mm),
             (Paper::Letter, PaperUnits::ThirtySeconds),
@@ -102,7 +104,10 @@ fn german_papers_are_german() {
     let texts_de = Texts::built_in(Language::De).unwrap();
     let mut notes = settings(Paper::A4, PaperUnits::Mm);
     notes.notes = Vec::new();
-    let pages = pages_with(&IGLOO, &SheetSettings { texts: texts_de.clone(), ..notes });
+    let german = SheetSettings { texts: texts_de.clone(), ..notes };
+    let mut pages = pages_with(&IGLOO, &german);
+    let medium = labels::LabelSettings { medium: labels::LabelMedium::L7160, used: 0 };
+    pages.extend(labels::labels(&IGLOO, medium, &german).unwrap());
     let pairs = histogram_pairs(&LAID.2, &texts_de).unwrap();
     let figures = histograms(&pairs, &texts_de).unwrap();
     let drawings = pages.iter().map(|sheet| &sheet.page.drawing).chain([&figures]);
@@ -130,6 +135,23 @@ fn german_papers_are_german() {
     assert!(words > 1000);
     let titles: Vec<&str> = pages.iter().filter_map(|s| s.page.title.as_deref()).collect();
     assert!(titles.contains(&"Deckblatt"), "{titles:?}");
+}
+
+/// The head of every page says what its lengths are in, and so does the table of figures.
+#[test]
+fn lengths_in_inches_are_said_to_be_so() {
+    let units = [PaperUnits::Inch, PaperUnits::Sixteenths, PaperUnits::ThirtySeconds];
+    for (units, word, other) in
+        [(PaperUnits::Mm, "mm", "inches")].into_iter().chain(units.map(|u| (u, "inches", "mm")))
+    {
+        for sheet in pages_of(&IGLOO, Paper::A4, units) {
+            let said: Vec<&str> =
+                texts(&sheet.page.drawing).map(|text| text.string.as_str()).collect();
+            let ends = |what: &str| said.iter().any(|t| t.ends_with(&format!("lengths in {what}")));
+            assert!(ends(word) && !ends(other), "{}: {said:?}", sheet.stem);
+            assert!(!said.contains(&other), "{}", sheet.stem);
+        }
+    }
 }
 
 /// Bookmarks of the cards name their rods and hang below one entry.
@@ -283,31 +305,6 @@ fn long_rods_are_broken_but_keep_short_stretches() {
     assert!(says("strip broken") && says("‹"));
 }
 
-#[test]
-fn circles_of_the_support_map_are_where_the_feet_are() {
-    for frame in [&*IGLOO, &fixture::circuit(6, 5.0)] {
-        let map = support_map::drawing(frame, &settings(Paper::A4, PaperUnits::Mm)).unwrap();
-        let circles: Vec<[f64; 2]> = map
-            .items()
-            .filter_map(|i| match i {
-                Item::Figure(Figure { shape: Shape::Circle { center, radius }, .. }) => {
-                    (*radius == frame.diameter / 2.0).then_some(*center)
-                }
-                _ => None,
-            })
-            .collect();
-        let feet = feet(frame);
-        assert_eq!(circles.len(), feet.len());
-        assert!(!feet.is_empty());
-        for (c, foot) in circles.iter().zip(&feet) {
-            assert!(map.frame().contains(*c));
-            let from_first = [c[0] - circles[0][0], circles[0][1] - c[1]];
-            assert!((from_first[0] - (foot.x - feet[0].x)).abs() < 1e-9);
-            assert!((from_first[1] - (foot.y - feet[0].y)).abs() < 1e-9);
-        }
-    }
-}
-
 /// The igloo with one thicker and one tapered rod: all that is said of them.
 #[test]
 fn rods_of_other_diameters_are_told_apart_on_every_paper() {
@@ -343,117 +340,6 @@ fn rods_of_other_diameters_are_told_apart_on_every_paper() {
     let feet: Vec<f64> = feet(&frame).iter().map(|foot| foot.diameter / 2.0).collect();
     assert_eq!((feet[0], feet[1], feet[2]), (2.5, 3.0, 1.5));
     assert_eq!(radii[..feet.len()], feet);
-}
-
-/// Numbers of feet lie on no chord and, on the small map, on no line between tiles.
-#[test]
-fn numbers_of_feet_keep_off_the_lines() {
-    let station = fixture::on_sample("train-station", "3.3.3.4.4");
-    for frame in [&*IGLOO, &station] {
-        let settings = settings(Paper::A4, PaperUnits::Mm);
-        let map = support_map::drawing(frame, &settings).unwrap();
-        let overview = &support_tiles::overview(frame, &settings).unwrap()[0].drawing;
-        for (drawing, names) in [(&map, "support map"), (overview, "overview")] {
-            let numbers: Vec<Rect> = texts(drawing)
-                .filter(|t| frame.supports.iter().any(|s| s.rod.to_string() == t.string))
-                .filter(|t| t.anchor == crate::drawing::Anchor::Middle)
-                .map(|t| t.extent().unwrap())
-                .collect();
-            assert!(numbers.len() + 2 >= frame.supports.len(), "{names}: {}", numbers.len());
-            let is_chord = |item: &&Item| match item {
-                Item::Figure(f) => f.paint.stroke.is_some_and(|s| s.dash == Dash::DASH_DOT),
-                Item::Text(_) => false,
-            };
-            let chords: Vec<[[f64; 2]; 2]> = drawing
-                .items()
-                .filter(is_chord)
-                .filter_map(|item| match item {
-                    Item::Figure(Figure { shape: Shape::Line(a, b), .. }) => Some([*a, *b]),
-                    _ => None,
-                })
-                .collect();
-            assert_eq!(chords.len(), frame.supports.len(), "{names}");
-            let on = |number: &&Rect| chords.iter().any(|&c| crosses(c, **number));
-            assert_eq!(numbers.iter().filter(on).count(), 0, "{names}");
-        }
-    }
-}
-
-/// Each foot is whole on some tile, and tiles agree on where it is.
-#[test]
-fn every_foot_is_on_a_tile_at_full_size() {
-    let settings = settings(Paper::A4, PaperUnits::Mm);
-    let pages = support_map::pages(&IGLOO, &settings).unwrap();
-    let tiles = pages.iter().filter(|s| {
-        s.stem.contains("support-map-")
-            && s.page.title.as_ref().is_some_and(|t| t.starts_with("tile "))
-    });
-    let whole: usize = tiles
-        .map(|s| {
-            let circle = |i: &&Item| matches!(i, Item::Figure(Figure { shape: Shape::Circle { radius, .. }, .. }) if *radius == 1.5);
-            s.page.drawing.items().filter(circle).count()
-        })
-        .sum();
-    assert!(whole >= IGLOO.supports.len());
-}
-
-#[test]
-fn a_frame_without_feet_says_so() {
-    let mut frame = fixture::circuit(5, 3.0);
-    frame.supports.clear();
-    let settings = settings(Paper::A4, PaperUnits::Mm);
-    let pages = support_map::pages(&frame, &settings).unwrap();
-    assert_eq!(pages.len(), 1);
-    assert!(texts(&pages[0].page.drawing).any(|t| t.string.contains("No rod of this frame")));
-    let map = support_map::drawing(&frame, &settings).unwrap();
-    assert!(texts(&map).any(|t| t.string.contains("No rod of this frame")));
-    assert!(map.items().all(|i| match i {
-        Item::Text(t) => map.frame().contains_rect(&t.extent().unwrap()),
-        Item::Figure(_) => true,
-    }));
-}
-
-/// A frame whose feet are too far apart for a map at full size.
-fn huge() -> Frame {
-    let mut frame = fixture::circuit(5, 3.0);
-    for rod in frame.rods.ids() {
-        let axis = &mut frame.rods[rod].axis;
-        axis.a = (axis.a.coords * 100.0).into();
-    }
-    for support in &mut frame.supports {
-        support.point = frame.rods[support.rod].axis.a;
-    }
-    frame
-}
-
-#[test]
-fn a_huge_footprint_is_drawn_smaller_and_says_so() {
-    let frame = huge();
-    let settings = settings(Paper::A4, PaperUnits::Mm);
-    let map = support_map::drawing(&frame, &settings).unwrap();
-    assert!(map.width < 5000.0);
-    assert!(texts(&map).any(|t| t.string.contains("scale 1:") && !t.string.contains("scale 1:1 ")));
-    assert!(crate::drawing::svg::render(&map).is_ok());
-    assert_eq!(support_map::pages(&frame, &settings).unwrap().len(), 1);
-}
-
-#[test]
-fn a_huge_footprint_is_at_full_size_for_cad() {
-    let frame = huge();
-    let settings = settings(Paper::A4, PaperUnits::Mm);
-    let (map, origin) = support_map::full_size(&frame, &settings).unwrap();
-    assert!(map.width.max(map.height) > 5080.0, "larger than PDF allows");
-    assert!(texts(&map).any(|t| t.string.contains("scale 1:1 ")));
-    let circles = map.layers.iter().find(|l| l.name == "feet").unwrap();
-    assert_eq!(circles.items.len(), frame.supports.len());
-    for (item, foot) in circles.items.iter().zip(feet(&frame)) {
-        let Item::Figure(Figure { shape: Shape::Circle { center, radius }, .. }) = item else {
-            panic!("not a circle: {item:?}")
-        };
-        let [x, y] = [center[0] - origin[0], origin[1] - center[1]];
-        assert!((x - foot.x).hypot(y - foot.y) < 1e-9 && *radius == foot.diameter / 2.0);
-    }
-    assert!(crate::drawing::dxf::render(&map, origin).is_ok());
 }
 
 #[test]
