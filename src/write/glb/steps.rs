@@ -5,12 +5,12 @@
 //! time (glTF 2.0, section 3.11).
 
 use super::super::structure::Structure;
-use super::parts::{accessor, pad};
+use super::parts::{accessor, pad, view};
 use super::{GlbError, document, metres, push_group, single, wrap};
 use crate::shop::order::{Assembly, Prop};
 use gltf_json::accessor::{ComponentType, Type};
-use gltf_json::animation::{Channel, Interpolation, Property, Sampler, Target};
-use gltf_json::buffer::View;
+use gltf_json::animation::{Channel, Interpolation, Property, Sampler, Target as Animated};
+use gltf_json::buffer::{Target, View};
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked::Valid;
 use gltf_json::{Accessor, Animation, Index, Mesh, Node, Root};
@@ -34,6 +34,8 @@ pub fn assembly_glb(structure: &Structure, assembly: &Assembly) -> Result<Vec<u8
         .enumerate()
         .filter_map(|(i, node)| Some((node.name.clone()?, Index::new(i as u32))))
         .collect();
+    let has_props = assembly.steps.iter().any(|step| !step.props.is_empty());
+    let line = has_props.then(|| push_line(&mut root, &mut buffer));
     let mut film = Film::new(&mut root, &mut buffer, assembly.steps.len());
     for (number, step) in assembly.steps.iter().enumerate() {
         for rod in &step.rods {
@@ -42,9 +44,9 @@ pub fn assembly_glb(structure: &Structure, assembly: &Assembly) -> Result<Vec<u8
             film.show(*node, number, None);
         }
     }
-    let props = film.props(assembly);
+    let props = line.map(|mesh| film.props(assembly, mesh));
     let animation = film.finish();
-    if !props.is_empty() {
+    if let Some(props) = props {
         let group = push_group(&mut root, "props", props);
         let top = root.scenes[0].nodes[0];
         root.nodes[top.value()].children.get_or_insert_default().push(group);
@@ -112,7 +114,8 @@ impl<'a> Film<'a> {
             extensions: None,
             extras: None,
         });
-        let target = Target { node, path: Valid(Property::Scale), extensions: None, extras: None };
+        let target =
+            Animated { node, path: Valid(Property::Scale), extensions: None, extras: None };
         self.channels.push(Channel { sampler, target, extensions: None, extras: None });
     }
 
@@ -130,8 +133,7 @@ impl<'a> Film<'a> {
     }
 
     /// Adds the props, each shown while it stands.
-    fn props(&mut self, assembly: &Assembly) -> Vec<Index<Node>> {
-        let mut mesh = None;
+    fn props(&mut self, assembly: &Assembly, mesh: Index<Mesh>) -> Vec<Index<Node>> {
         let mut nodes = Vec::new();
         for (number, step) in assembly.steps.iter().enumerate() {
             for prop in &step.props {
@@ -140,36 +142,12 @@ impl<'a> Film<'a> {
                 };
                 let later = assembly.steps.iter().enumerate().skip(number);
                 let until = { later }.find(removed).map(|(last, _)| last);
-                let mesh = *mesh.get_or_insert_with(|| self.line());
                 let node = self.root.push(prop_node(prop, mesh));
                 self.show(node, number, until);
                 nodes.push(node);
             }
         }
         nodes
-    }
-
-    /// A line from the origin to (0, 1, 0).
-    fn line(&mut self) -> Index<Mesh> {
-        let points = self.push(&[0.0, 0.0, 0.0, 0.0, 1.0, 0.0], 2, Type::Vec3);
-        let bound = |y: f64| Some(serde_json::Value::from(vec![0.0, y, 0.0]));
-        let points = self.root.push(Accessor { min: bound(0.0), max: bound(1.0), ..points });
-        let primitive = Primitive {
-            attributes: BTreeMap::from([(Valid(Semantic::Positions), points)]),
-            extensions: None,
-            extras: None,
-            indices: None,
-            material: None,
-            mode: Valid(Mode::Lines),
-            targets: None,
-        };
-        self.root.push(Mesh {
-            extensions: None,
-            extras: None,
-            name: Some("prop".to_owned()),
-            primitives: vec![primitive],
-            weights: None,
-        })
     }
 
     /// The animation; the lengths of buffer and view are put right.
@@ -185,6 +163,37 @@ impl<'a> Film<'a> {
             samplers: self.samplers,
         }
     }
+}
+
+/// Adds a line from the origin to (0, 1, 0), in a part of the buffer of its own: vertices and
+/// times of an animation may not share one.
+fn push_line(root: &mut Root, buffer: &mut Vec<u8>) -> Index<Mesh> {
+    let points = [0.0, 0.0, 0.0, 0.0, 1.0, 0.0_f32];
+    let view = view(Index::new(0), buffer.len(), size_of_val(&points), Target::ArrayBuffer);
+    let view = root.push(view);
+    buffer.extend(points.iter().flat_map(|x| x.to_le_bytes()));
+    let bound = |y: f64| Some(serde_json::Value::from(vec![0.0, y, 0.0]));
+    let points = root.push(Accessor {
+        min: bound(0.0),
+        max: bound(1.0),
+        ..accessor(view, 0, 2, (ComponentType::F32, Type::Vec3))
+    });
+    let primitive = Primitive {
+        attributes: BTreeMap::from([(Valid(Semantic::Positions), points)]),
+        extensions: None,
+        extras: None,
+        indices: None,
+        material: None,
+        mode: Valid(Mode::Lines),
+        targets: None,
+    };
+    root.push(Mesh {
+        extensions: None,
+        extras: None,
+        name: Some("prop".to_owned()),
+        primitives: vec![primitive],
+        weights: None,
+    })
 }
 
 /// A prop as an upright line from its foot.
@@ -224,6 +233,30 @@ mod tests {
         channels.collect()
     }
 
+    /// A part of a buffer holds either vertices or an animation's times and values.
+    fn assert_parts_serve_one_end(bytes: &[u8]) {
+        let file = Gltf::from_slice(bytes).unwrap();
+        let of = |accessor: gltf::Accessor| accessor.view().unwrap().index();
+        let primitives = file.meshes().flat_map(|mesh| mesh.primitives());
+        let vertices = primitives.flat_map(|primitive| {
+            let accessors = primitive.attributes().map(|(_, accessor)| of(accessor));
+            accessors.collect::<Vec<_>>()
+        });
+        let animated: Vec<usize> = file
+            .animations()
+            .flat_map(|animation| {
+                let ends = animation.samplers().map(|s| [of(s.input()), of(s.output())]);
+                ends.collect::<Vec<_>>()
+            })
+            .flatten()
+            .collect();
+        assert!(!animated.is_empty());
+        for view in vertices {
+            assert!(!animated.contains(&view));
+            assert!(file.views().nth(view).unwrap().target().is_some());
+        }
+    }
+
     #[test]
     fn rods_appear_in_their_steps_and_props_go() {
         let frame = fixture::on_sample("igloo", "4.4.4.4");
@@ -231,7 +264,9 @@ mod tests {
         for order in [Order::Crown, Order::Ground] {
             let settings = OrderSettings { order: Some(order), ..OrderSettings::default() };
             let plan = assembly(&frame, &[], settings).unwrap();
-            let shown = shown(&assembly_glb(&structure, &plan).unwrap());
+            let bytes = assembly_glb(&structure, &plan).unwrap();
+            assert_parts_serve_one_end(&bytes);
+            let shown = shown(&bytes);
             let props: usize = plan.steps.iter().map(|step| step.props.len()).sum();
             assert_eq!(shown.len(), frame.rods.len() + props);
             let end = plan.steps.len() as f32 * STEP;
