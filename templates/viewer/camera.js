@@ -29,6 +29,11 @@ function walkTo(rod) {
   camera.height = Math.max(camera.height, Math.PI / 6);
 }
 
+/** How far behind the middle of the frame a rod lies as it is looked at, mm. */
+function behind(rod) {
+  return dot(sub(along(rod.a, sub(rod.b, rod.a), 0.5), camera.target), cameraAxes().ahead);
+}
+
 /** Eye, and the unit vectors ahead, to the right and up. */
 function cameraAxes() {
   const [c, s] = [Math.cos(camera.height), Math.sin(camera.height)];

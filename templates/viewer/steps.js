@@ -4,6 +4,11 @@ function goTo(step) {
   state.step = step === null ? null : Math.max(0, Math.min(data.steps.length - 1, step));
   // The card stays only while its rod is there to be seen.
   if (state.rod !== null && !isShown(data.rods[state.rod])) state.rod = null;
+  if (state.step !== null) {
+    // New rods on the far side would be hidden by the others.
+    const far = data.steps[state.step].rods.map((i) => data.rods[i]).find((rod) => behind(rod) > camera.size / 4);
+    if (far) walkTo(far);
+  }
   changed();
 }
 

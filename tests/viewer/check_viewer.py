@@ -70,6 +70,10 @@ def check_steps(page, steps):
         # A star is behind the rod that closes a circuit.
         assert [text.rstrip("*") for text in shown] == step["rods"], (number, shown)
         page.click("#forward")
+    for _ in steps[6:]:
+        page.click("#forward")
+        hidden = "data.steps[state.step].rods.every((i) => behind(data.rods[i]) > camera.size / 4)"
+        assert not page.evaluate(hidden), "new rods lie behind the frame"
     page.click("#all")
     assert page.locator("#step button.rod").count() == 0
 
