@@ -178,14 +178,15 @@ fn add_pictures(design: &Design, model: &Model, files: &mut Files) -> Result<(),
 }
 
 /// The sheets for a laser: of several, each in files of its own.
-/// All sheets in one file, and where there are several, each in its own as well.
+/// All sheets in one file, where that is not too large, and each in its own as well where there
+/// are several.
 fn add_jigs(jigs: &Jigs, laser: LaserProfile, files: &mut Files) -> Result<(), DocumentError> {
     let named = |sheets: Vec<Drawing>| {
-        let all = ("jigs".to_owned(), jigs::together(&sheets));
+        let all = jigs::together(&sheets).map(|drawing| ("jigs".to_owned(), drawing));
         let single = if sheets.len() > 1 { sheets } else { Vec::new() };
         let stem = |i: usize| format!("jigs/sheet-{:02}", i + 1);
         let single = single.into_iter().enumerate().map(move |(i, sheet)| (stem(i), sheet));
-        [all].into_iter().chain(single)
+        all.into_iter().chain(single)
     };
     for (stem, drawing) in named(jigs::laser_sheets(jigs, laser)) {
         files.add(format!("{stem}.svg"), svg::render(&drawing)?);

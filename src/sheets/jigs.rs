@@ -49,22 +49,34 @@ pub fn cad_sheets(jigs: &Jigs) -> Vec<Drawing> {
 /// Between sheets that stand on one drawing, mm.
 const APART: f64 = 20.0;
 
-/// All sheets on one drawing, one below the other.
-pub fn together(sheets: &[Drawing]) -> Drawing {
-    let width = sheets.iter().map(|sheet| sheet.width).fold(0.0, f64::max);
-    let height: f64 = sheets.iter().map(|sheet| sheet.height + APART).sum();
-    let mut all = Drawing::new(width, (height - APART).max(0.0));
+/// Longest side of a drawing of several sheets, mm: no larger one can be rendered.
+const LONGEST: f64 = 5000.0;
+
+/// All sheets on one drawing, in rows as even as can be. None where they do not fit on 5 m.
+pub fn together(sheets: &[Drawing]) -> Option<Drawing> {
+    let largest = |side: fn(&Drawing) -> f64| sheets.iter().map(side).fold(0.0, f64::max);
+    let pitch = [largest(|sheet| sheet.width) + APART, largest(|sheet| sheet.height) + APART];
+    let size = |columns: usize| {
+        let count = [columns, sheets.len().div_ceil(columns)];
+        [0, 1].map(|i| count[i] as f64 * pitch[i] - APART)
+    };
+    let longest = |columns: usize| size(columns).into_iter().fold(0.0, f64::max);
+    let columns = (1..=sheets.len()).min_by(|&p, &q| longest(p).total_cmp(&longest(q)))?;
+    if longest(columns) > LONGEST {
+        return None;
+    }
+    let [width, height] = size(columns);
+    let mut all = Drawing::new(width, height);
     // In the order in which they are burnt, also where the first sheet lacks one.
     for layer in [ENGRAVE, SCORE, CUT, CUT_INNER, CUT_OUTER, GUIDE] {
         all.layer(layer);
     }
-    let mut top = 0.0;
-    for sheet in sheets {
-        all.place_drawing(sheet, &Placement::at([0.0, top]));
-        top += sheet.height + APART;
+    for (i, sheet) in sheets.iter().enumerate() {
+        let corner = [(i % columns) as f64 * pitch[0], (i / columns) as f64 * pitch[1]];
+        all.place_drawing(sheet, &Placement::at(corner));
     }
     all.layers.retain(|layer| !layer.items.is_empty());
-    all
+    Some(all)
 }
 
 /// How each kind of line is painted.
@@ -121,4 +133,26 @@ fn score(curve: &Curve, down: &dyn Fn(&Point) -> Point, stroke: Stroke) -> Figur
         },
     };
     Figure { shape, paint: stroke.into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_sheets_stand_in_even_rows_unless_they_are_too_large() {
+        let sheets = |n: usize, width: f64, height: f64| {
+            let mut sheet = Drawing::new(width, height);
+            sheet.layer(CUT).rect([1.0; 2], [2.0; 2], Stroke::new(0.1));
+            vec![sheet; n]
+        };
+        let size = |all: Drawing| [all.width, all.height];
+        assert_eq!(together(&sheets(1, 600.0, 400.0)).map(size), Some([600.0, 400.0]));
+        assert_eq!(together(&sheets(5, 600.0, 400.0)).map(size), Some([1220.0, 1240.0]));
+        let many = together(&sheets(30, 600.0, 400.0)).unwrap();
+        assert_eq!(many.items().count(), 30);
+        assert!(crate::drawing::svg::render(&many).is_ok(), "{} × {}", many.width, many.height);
+        assert_eq!(together(&sheets(30, 1200.0, 900.0)), None);
+        assert_eq!(together(&[]), None);
+    }
 }
