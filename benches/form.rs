@@ -10,7 +10,7 @@ mod dome;
 mod measure;
 
 use dome::{Dome, dome_edge};
-use measure::{forget_peak, least, ms, peak_memory};
+use measure::{forget_peak, growth, least, ms, peak_memory};
 use rodwright::frame::canvas::{Canvas, PlaneCanvas};
 use rodwright::frame::close::{Way, project};
 use rodwright::frame::form::{FormSettings, form, median_rise};
@@ -115,14 +115,13 @@ fn row(rods: f64, paper: Option<f64>, last: Option<(f64, f64)>) -> (f64, f64) {
     let (time, formed) =
         least(RUNS, BUDGET, || form(&canvas, &settings).expect("a dome can be built"));
     let (rods, all) = (formed.frame.rods.len() as f64, ms(time));
-    let growth = |(n, t): (f64, f64)| (all / t).ln() / (rods / n).ln();
     println!(
         "{rods:>7} {:>9} {diameter:>8.3} {:>10.2} {:>11.2} {all:>10.2} {:>7} {:>8.0} {:>9} {:>5} \
          {:>9.1e} {:>10}",
         formed.frame.contacts.len(),
         ms(lift_time),
         ms(project_time),
-        last.map_or_else(String::new, |last| format!("{:.2}", growth(last))),
+        growth(last, (rods, all)),
         peak_memory(),
         formed.closing.shaping,
         formed.closing.steps,

@@ -8,7 +8,7 @@ mod dome;
 mod measure;
 
 use dome::{Dome, dome_edge};
-use measure::{forget_peak, least, ms, peak_memory};
+use measure::{forget_peak, growth, least, ms, peak_memory};
 use rodwright::frame::Frame;
 use rodwright::frame::canvas::{Canvas, PlaneCanvas};
 use rodwright::frame::close::Way;
@@ -73,7 +73,6 @@ fn row(frame: &Frame, order: Order, last: Option<(f64, f64)>) -> (f64, f64) {
     let (time, made) =
         least(RUNS, BUDGET, || assembly(frame, &[], settings).expect("memory suffices"));
     let (rods, all) = (frame.rods.len() as f64, ms(time));
-    let growth = |(n, t): (f64, f64)| (all / t).ln() / (rods / n).ln();
     println!(
         "{rods:>7} {:>6} {:<6} {:>6} {:>6} {:>7} {:>7} {all:>10.2} {:>7} {:>8.0}",
         frame.supports.len(),
@@ -82,7 +81,7 @@ fn row(frame: &Frame, order: Order, last: Option<(f64, f64)>) -> (f64, f64) {
         made.props(),
         made.most_props(),
         made.lifts(),
-        last.map_or_else(String::new, |last| format!("{:.2}", growth(last))),
+        growth(last, (rods, all)),
         peak_memory(),
     );
     (rods, all)

@@ -22,6 +22,14 @@ pub fn ms(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
+/// The exponent by which a time grows with the number of rods, from the row before, each row's
+/// rods and time: 1 is linear. Empty for the first row.
+#[allow(dead_code, reason = "not every bench has rows of one kind")]
+pub fn growth(before: Option<(f64, f64)>, (rods, time): (f64, f64)) -> String {
+    let exponent = |(n, t): (f64, f64)| (time / t).ln() / (rods / n).ln();
+    before.map_or_else(String::new, |before| format!("{:.2}", exponent(before)))
+}
+
 /// The process' peak memory, MB, where the system tells it; 0 elsewhere.
 pub fn peak_memory() -> f64 {
     std::fs::read_to_string("/proc/self/status")

@@ -141,6 +141,11 @@ pub fn crosses([a, b]: [Point; 2], rect: Rect) -> bool {
     clip_segment(a, b, rect).is_some()
 }
 
+/// The part of a straight line in `rect`; `None` if it has no length.
+pub fn within([a, b]: [Point; 2], rect: Rect) -> Option<[Point; 2]> {
+    clip_segment(a, b, rect).map(|(from, to)| [between(a, b, from), between(a, b, to)])
+}
+
 /// The part of the line from `a` to `b` inside `rect` as parameters 0 to 1.
 /// `None` if it has no length.
 fn clip_segment(a: Point, b: Point, rect: Rect) -> Option<(f64, f64)> {
@@ -326,5 +331,14 @@ mod tests {
         items.text([9.0, 5.0], 3.0, "kept");
         items.text([11.0, 5.0], 3.0, "gone").end();
         assert_eq!(clip(&items, RECT), items[..1]);
+    }
+
+    #[test]
+    fn lines_that_pass_by_do_not_cross() {
+        let rect = Rect::new([0.0; 2], [10.0, 10.0]);
+        assert!(crosses([[-5.0, 5.0], [15.0, 6.0]], rect));
+        assert!(crosses([[5.0, 5.0], [6.0, 6.0]], rect));
+        assert!(!crosses([[-5.0, 5.0], [5.0, 15.1]], rect));
+        assert!(!crosses([[11.0, 0.0], [11.0, 10.0]], rect));
     }
 }

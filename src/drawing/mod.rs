@@ -33,7 +33,7 @@ mod place;
 mod style;
 pub mod svg;
 
-pub use clip::{clip, crosses};
+pub use clip::{clip, crosses, within};
 pub use draw::Draw;
 pub use error::DrawingError;
 pub use geometry::{Point, Rect, bounds};

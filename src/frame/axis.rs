@@ -40,6 +40,15 @@ impl Axis {
         (self.b - self.a) / self.length()
     }
 
+    /// Two unit vectors across it, at right angles to each other.
+    pub fn sides(&self) -> [Vector3; 2] {
+        let u = self.direction();
+        // From the axis of space that it is farthest from, so that nothing cancels.
+        let other = Vector3::ith(u.iamin(), 1.0);
+        let first = u.cross(&other).normalize();
+        [first, u.cross(&first)]
+    }
+
     /// The point at a distance from end A, mm; beyond the ends too.
     pub fn at(&self, distance: f64) -> Point3 {
         self.a + self.direction() * distance

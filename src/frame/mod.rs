@@ -154,6 +154,16 @@ pub enum End {
     B,
 }
 
+impl End {
+    /// `A` or `B`, as builders read it.
+    pub fn letter(self) -> &'static str {
+        match self {
+            Self::A => "A",
+            Self::B => "B",
+        }
+    }
+}
+
 /// A rod end that stands on the ground.
 #[derive(Clone, Debug)]
 pub struct Support {

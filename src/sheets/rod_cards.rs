@@ -7,7 +7,7 @@ use super::text::message::messages;
 use super::{SheetError, SheetSettings};
 use crate::drawing::font::{LEADING, elide, text_width};
 use crate::drawing::{Anchor, Color, Draw, Item, Placement, Stroke, Weight};
-use crate::frame::{End, Frame};
+use crate::frame::Frame;
 use crate::ids::RodId;
 use crate::shop::lengths::are_mixed;
 use crate::shop::{Foot, LengthClasses, Mark, Side, classes, feet, marks};
@@ -186,11 +186,7 @@ impl<'a> Book<'a> {
         let (settings, format) = (self.settings, self.settings.format());
         let feet = self.feet.get(&rod).map_or(&[][..], Vec::as_slice);
         let lines = |foot: &Foot| {
-            let end = match foot.end {
-                End::A => "A",
-                End::B => "B",
-            };
-            let end = end.to_owned();
+            let end = foot.end.letter().to_owned();
             let elevation = format.angle(foot.elevation);
             let heading = format.heading(foot.azimuth);
             let angle = format.angle(foot.bevel);
@@ -208,8 +204,7 @@ impl<'a> Book<'a> {
 /// What becomes of a rod at a mark.
 pub(super) fn word(mark: &Mark, settings: &SheetSettings) -> Result<String, TextError> {
     match (mark.side, mark.ending) {
-        (Side::Meets(End::A), _) => settings.say(say::Meets { end: "A".to_owned() }),
-        (Side::Meets(End::B), _) => settings.say(say::Meets { end: "B".to_owned() }),
+        (Side::Meets(end), _) => settings.say(say::Meets { end: end.letter().to_owned() }),
         (_, true) => settings.say(say::Ends {}),
         (_, false) => settings.say(say::Passes {}),
     }

@@ -1,7 +1,7 @@
 //! Where the numbers of rods go in a picture: beside what they name, apart from each other.
 
 use super::page::THIN;
-use crate::drawing::{Color, Draw, DrawingError, Item, Point, Rect, Text};
+use crate::drawing::{Color, Draw, DrawingError, Item, Point, Rect, Text, crosses};
 
 /// Distances of a number from its rod that are tried, mm.
 const DISTANCES: [f64; 7] = [0.8, 1.8, 3.2, 5.5, 8.5, 12.0, 17.0];
@@ -94,24 +94,6 @@ fn moved(rect: Rect, by: Point) -> Rect {
     Rect { min: shift(rect.min), max: shift(rect.max) }
 }
 
-/// Whether a line enters a rectangle.
-fn crosses([a, b]: [Point; 2], rect: Rect) -> bool {
-    let (mut from, mut to) = (0.0f64, 1.0f64);
-    for i in 0..2 {
-        let d = b[i] - a[i];
-        if d == 0.0 {
-            if !(rect.min[i]..=rect.max[i]).contains(&a[i]) {
-                return false;
-            }
-            continue;
-        }
-        let [p, q] = [(rect.min[i] - a[i]) / d, (rect.max[i] - a[i]) / d];
-        from = from.max(p.min(q));
-        to = to.min(p.max(q));
-    }
-    from < to
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -147,14 +129,5 @@ mod tests {
             assert!(room.contains_rect(extent));
             assert!(extents[..i].iter().all(|other| !other.overlaps(extent)));
         }
-    }
-
-    #[test]
-    fn lines_that_pass_by_do_not_cross() {
-        let rect = Rect::new([0.0; 2], [10.0, 10.0]);
-        assert!(crosses([[-5.0, 5.0], [15.0, 6.0]], rect));
-        assert!(crosses([[5.0, 5.0], [6.0, 6.0]], rect));
-        assert!(!crosses([[-5.0, 5.0], [5.0, 15.1]], rect));
-        assert!(!crosses([[11.0, 0.0], [11.0, 10.0]], rect));
     }
 }

@@ -5,7 +5,9 @@ use super::page::{SMALL, THIN};
 use super::step_labels::{Label, placed};
 use super::step_views::ViewSide;
 use super::view::View;
-use crate::drawing::{Color, Dash, Draw, DrawingError, Item, Point, Rect, Stroke, Text, clip};
+use crate::drawing::{
+    Color, Dash, Draw, DrawingError, Item, Point, Rect, Stroke, Text, clip, within,
+};
 use crate::frame::Frame;
 use crate::ids::{Id, IdVec, RodId};
 use crate::shop::order::{Prop, Step};
@@ -226,26 +228,6 @@ impl<'a> Scene<'a> {
 
 /// White left round the frame, mm: numbers of rods at its rim stand there.
 const AROUND: f64 = 7.0;
-
-/// The part of a line that is in the room.
-fn within(line: [Point; 2], room: Rect) -> Option<[Point; 2]> {
-    let [a, b] = line;
-    let (mut from, mut to) = (0.0f64, 1.0f64);
-    for i in 0..2 {
-        let d = b[i] - a[i];
-        let [p, q] = [room.min[i] - a[i], room.max[i] - a[i]];
-        if d == 0.0 {
-            if p > 0.0 || q < 0.0 {
-                return None;
-            }
-            continue;
-        }
-        from = from.max((p / d).min(q / d));
-        to = to.min((p / d).max(q / d));
-    }
-    let at = |s: f64| [a[0] + (b[0] - a[0]) * s, a[1] + (b[1] - a[1]) * s];
-    (from < to).then(|| [at(from), at(to)])
-}
 
 impl Aspect {
     fn new(frame: &Frame, view: View, scale: f64) -> Self {

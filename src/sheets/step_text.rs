@@ -4,7 +4,7 @@ use super::step_picture::{CLOSES, LIFTED};
 use super::text::TextError;
 use super::text::message::messages;
 use super::{Format, SheetSettings};
-use crate::frame::{End, Frame};
+use crate::frame::Frame;
 use crate::ids::{ContactId, PropId, RodId};
 use crate::shop::order::{Assembly, Check, Lift, Order, Prop, Step};
 use crate::shop::{LengthClasses, Side, marks};
@@ -123,7 +123,7 @@ impl Writer<'_> {
                 Side::Over => self.settings.say(say::Over { mark, rod, mate })?,
                 Side::Under => self.settings.say(say::Under { mark, rod, mate })?,
                 Side::Meets(end) => {
-                    let end = if end == End::A { "A" } else { "B" }.to_owned();
+                    let end = end.letter().to_owned();
                     self.settings.say(say::Meets { mark, rod, end })?
                 }
             });

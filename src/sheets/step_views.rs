@@ -33,8 +33,7 @@ impl ViewSide {
     }
 
     fn toward(self) -> Vector3 {
-        let (sin, cos) = self.azimuth().sin_cos();
-        Vector3::new(cos * ELEVATION.cos(), sin * ELEVATION.cos(), ELEVATION.sin())
+        self.view().toward()
     }
 
     /// How far one walks round the model from another side, degrees; to the right positive.

@@ -10,7 +10,7 @@ use crate::drawing::{Draw, DrawingError, Item, Placement, Point, Stroke, Weight}
 use crate::frame::Frame;
 use crate::ids::{IdVec, RodId};
 use crate::shop::classes;
-use crate::shop::order::{Assembly, Prop};
+use crate::shop::order::Assembly;
 
 /// Share of the page's width that a picture takes.
 const PICTURE: f64 = 0.63;
@@ -55,10 +55,8 @@ pub(super) fn steps(
     let classes = classes(frame);
     let writer = Writer { frame, classes: &classes, settings, count: assembly.steps.len() };
     let placed = placed(frame, assembly);
-    let mut props: Vec<Prop> = Vec::new();
-    for (number, step) in assembly.steps.iter().enumerate() {
+    for (number, (step, props)) in assembly.steps.iter().zip(assembly.standing()).enumerate() {
         let walk = if number == 0 { 0.0 } else { sides[number].walk_from(sides[number - 1]) };
-        props.extend(&step.props);
         let around = Around { placed: &placed, number, props: &props };
         let picture = scene.picture(step, sides[number], &around)?;
         let text = Column::new(&writer.step(number, step, walk)?, width - size[0] - GAP)?;
@@ -68,7 +66,6 @@ pub(super) fn steps(
         block(&mut flow, &picture, &text, walk, size);
         text.draw(flow.page(), [corner[0] + size[0] + GAP, corner[1] + TITLE]);
         flow.skip(height);
-        props.retain(|prop| !step.remove_props.contains(&prop.id));
     }
     Ok(flow.finish(None))
 }

@@ -14,7 +14,7 @@ use crate::drawing::{
     Anchor, Color, Draw, Drawing, DrawingError, Item, Placement, Point, Rect, Stroke, Weight,
 };
 use crate::drawing::{Text, clip};
-use crate::frame::{End, Frame};
+use crate::frame::Frame;
 use crate::shop::Foot;
 
 messages! {
@@ -125,10 +125,7 @@ fn table(map: &FootMap, settings: &SheetSettings) -> Result<Table, TextError> {
         };
         vec![
             f.rod.to_string(),
-            match f.end {
-                End::A => "A".to_owned(),
-                End::B => "B".to_owned(),
-            },
+            f.end.letter().to_owned(),
             format.length(f.x),
             format.length(f.y),
             format.length(f.radius),

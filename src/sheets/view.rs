@@ -92,6 +92,11 @@ impl View {
         Self { right, up: toward.cross(&right), toward, fading: false }
     }
 
+    /// The unit vector from the frame to the eye.
+    pub fn toward(&self) -> Vector3 {
+        self.toward
+    }
+
     /// Where a point appears, mm, y down.
     pub fn project(&self, p: &Point3) -> Point {
         [p.coords.dot(&self.right), -p.coords.dot(&self.up)]

@@ -207,7 +207,7 @@ fn laid_out(
 mod tests {
     use super::*;
     use crate::shop::fixture;
-    use crate::shop::laser::{Curve, GAP, MARGIN, Point, REFERENCE, area};
+    use crate::shop::laser::{Curve, GAP, MARGIN, Point, REFERENCE, area, holds};
     use crate::shop::lengths::sticks;
     use crate::shop::saw::{Offer, Stock, plan_some};
 
@@ -221,14 +221,6 @@ mod tests {
 
     fn settings(sheet: [f64; 2], kerf: f64) -> JigSettings {
         JigSettings { kinds: Jig::ALL.to_vec(), sheet, thickness: 3.0, kerf }
-    }
-
-    fn holds(ring: &[Point], [x, y]: Point) -> bool {
-        let next = ring.iter().cycle().skip(1);
-        let crossed = ring.iter().zip(next).filter(|(a, b)| {
-            (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
-        });
-        crossed.count() % 2 == 1
     }
 
     #[test]

@@ -164,10 +164,7 @@ pub enum EndName {
 impl EndName {
     /// `A` or `B`, as builders read it.
     pub fn letter(self) -> &'static str {
-        match self {
-            Self::A => "A",
-            Self::B => "B",
-        }
+        End::from(self).letter()
     }
 }
 

@@ -6,8 +6,8 @@
 
 use super::figure::figure;
 use super::structure::ContactKindName;
+use crate::frame::Frame;
 use crate::frame::tolerance::{Misfit, UnitOff};
-use crate::frame::{End, Frame};
 use crate::ids::{ContactId, IdVec, RodId};
 use crate::shop::feet;
 use crate::shop::lengths::LengthClasses;
@@ -114,14 +114,7 @@ pub fn rods(frame: &Frame, classes: &LengthClasses) -> Result<Vec<u8>, TableErro
 
 /// The letters of a rod's ends on the ground.
 fn standing_ends(frame: &Frame, rod: RodId) -> String {
-    frame.supports.iter().filter(|s| s.rod == rod).map(|s| letter(s.end)).collect()
-}
-
-fn letter(end: End) -> &'static str {
-    match end {
-        End::A => "A",
-        End::B => "B",
-    }
+    frame.supports.iter().filter(|s| s.rod == rod).map(|s| s.end.letter()).collect()
 }
 
 /// The bytes of `contacts.csv`.
@@ -168,7 +161,7 @@ pub fn supports(frame: &Frame) -> Result<Vec<u8>, TableError> {
     let row = |foot: feet::Foot| {
         vec![
             foot.rod.to_string(),
-            letter(foot.end).into(),
+            foot.end.letter().into(),
             length(foot.x),
             length(foot.y),
             angle(foot.elevation),

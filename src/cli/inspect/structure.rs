@@ -5,7 +5,7 @@ use crate::cli::Failure;
 use crate::cli::page::Page;
 use crate::cli::summary::{diameter, rods};
 use crate::cli::terminal::Terminal;
-use crate::frame::{ContactKind, End, Frame};
+use crate::frame::{ContactKind, Frame};
 use crate::ids::{ContactId, Id, IdVec, RodId, UnitId};
 use crate::shop::feet::feet;
 use crate::shop::lengths::{are_mixed, classes};
@@ -88,7 +88,7 @@ fn rod(page: &mut Page, frame: &Frame, id: RodId) {
     page.row("end B", place(rod.axis.b));
     page.row("units", list(&rod.units));
     for foot in feet(frame).iter().filter(|f| f.rod == id) {
-        let end = if foot.end == End::A { "A" } else { "B" };
+        let end = foot.end.letter();
         page.row(
             "stands",
             format!(

@@ -23,11 +23,7 @@ impl Across {
 
     /// Across an axis.
     pub fn new(axis: &Axis) -> Self {
-        let u = axis.direction();
-        // From the axis of space that it is farthest from, so that nothing cancels.
-        let other = Vector3::ith(u.iamin(), 1.0);
-        let first = u.cross(&other).normalize();
-        Self([first, u.cross(&first)])
+        Self(axis.sides())
     }
 
     /// A gradient by the ends as one by the four ways.

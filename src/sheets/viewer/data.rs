@@ -3,7 +3,7 @@
 use super::say;
 use super::words::words;
 use crate::frame::Frame;
-use crate::ids::{Id, IdVec, PropId, RodId};
+use crate::ids::{Id, IdVec, RodId, UnitId};
 use crate::sheets::rod_cards::{self, Book};
 use crate::sheets::step_text::{Writer, guide};
 use crate::sheets::text::TextError;
@@ -87,7 +87,7 @@ struct StepData {
     props: Vec<PropData>,
 }
 
-#[derive(Serialize, Clone)]
+#[derive(Serialize)]
 struct PropData {
     id: String,
     point: [f64; 3],
@@ -108,7 +108,7 @@ pub(super) fn data(
     let cards = Cards { frame, classes: &classes, settings, book: Book::new(frame, settings, 0.0) };
     let rods: Result<_, TextError> =
         frame.rods.ids().map(|rod| cards.rod(rod, step_of[rod])).collect();
-    let unit = |id| UnitData { id: format!("{id}"), rods: places(&frame.units[id].rods) };
+    let unit = |id: UnitId| UnitData { id: id.to_string(), rods: places(&frame.units[id].rods) };
     let with_steps = assembly.filter(|assembly| !assembly.steps.is_empty());
     Ok(Data {
         format: "rodwright-viewer",
@@ -184,10 +184,8 @@ fn steps(
     settings: &SheetSettings,
 ) -> Result<Vec<StepData>, TextError> {
     let writer = Writer { frame, classes, settings, count: assembly.steps.len() };
-    let mut standing: BTreeMap<PropId, PropData> = BTreeMap::new();
     let mut steps = Vec::new();
-    for (n, step) in assembly.steps.iter().enumerate() {
-        standing.extend(step.props.iter().map(|p| (p.id, prop(p))));
+    for (n, (step, standing)) in assembly.steps.iter().zip(assembly.standing()).enumerate() {
         // The reader turns the view, so nobody is told to walk round the model.
         let text = writer.step(n, step, 0.0)?;
         steps.push(StepData {
@@ -195,9 +193,8 @@ fn steps(
             rods: places(&step.rods),
             parts: text.parts.into_iter().map(|p| [p.number, p.facts, p.contacts]).collect(),
             notes: text.notes,
-            props: standing.values().cloned().collect(),
+            props: standing.iter().map(prop).collect(),
         });
-        standing.retain(|id, _| !step.remove_props.contains(id));
     }
     Ok(steps)
 }

@@ -1,7 +1,7 @@
 //! The boards of a stand, ready to be cut.
 
 use super::stand::{Shape, Stand};
-use crate::shop::laser::{Board, Lettering, Point, rectangle, width_of};
+use crate::shop::laser::{Board, Lettering, Point, height_of, rectangle, width_of};
 
 /// Height of the numbers on stands, mm, where there is room.
 const LETTERS: f64 = 3.0;
@@ -75,16 +75,12 @@ fn tabbed_foot(shape: &Shape, thickness: f64, slot: Option<[f64; 2]>) -> Vec<Poi
 
 /// Lines of text about a point, as large as there is room, and none where they would not be
 /// read.
-fn label(lines: &[String], [x, y]: Point, [wide, high]: [f64; 2]) -> Vec<Vec<Point>> {
-    let count = lines.len() as f64;
-    // Lines are half their height apart.
-    let by_height = high / (1.5 * count - 0.5);
+fn label(lines: &[String], middle: Point, [wide, high]: [f64; 2]) -> Vec<Vec<Point>> {
+    let by_height = high / height_of(lines, 1.0);
     let by_width = lines.iter().map(|l| wide / width_of(l, 1.0)).fold(LETTERS, f64::min);
     let height = by_width.min(by_height);
     if height < LEAST_LETTERS {
         return Vec::new();
     }
-    let middle = |i: usize| [x, y + ((count - 1.0) / 2.0 - i as f64) * 1.5 * height];
-    let letters = Lettering::new(height);
-    lines.iter().enumerate().flat_map(|(i, line)| letters.centred(middle(i), line)).collect()
+    Lettering::new(height).block(middle, lines)
 }

@@ -6,7 +6,7 @@ use super::plate::{Piece, Seams};
 use super::stand::{Shape, Stand};
 use crate::frame::Frame;
 use crate::shop::feet::{self, Foot};
-use crate::shop::laser::{Board, Curve, Lettering, Point, width_of};
+use crate::shop::laser::{Board, Curve, Lettering, Point, bounds, height_of, holds, width_of};
 
 /// Height of numbers, mm.
 const LETTERS: f64 = 3.0;
@@ -116,7 +116,7 @@ impl Number<'_> {
     fn placed(&self, seams: &Seams, taken: &mut Vec<[Point; 2]>) -> Vec<Vec<Point>> {
         let [low, high] = seams.around(self.at);
         let wide = self.lines.iter().map(|t| width_of(t, self.height)).fold(0.0, f64::max);
-        let tall = self.height * (1.5 * self.lines.len() as f64 - 0.5);
+        let tall = height_of(self.lines, self.height);
         let half = [wide / 2.0 + FREE, tall / 2.0 + FREE];
         let far = (0..).map(|i| 3.0 + 1.5 * f64::from(i)).take_while(|far| *far < FARTHEST);
         for (far, turn) in far.flat_map(|far| (0..16).map(move |turn| (far, turn))) {
@@ -126,19 +126,10 @@ impl Number<'_> {
             let inside = (0..2).all(|i| low[i] < place[0][i] && place[1][i] < high[i]);
             if inside && !taken.iter().any(|other| overlap(&place, other)) {
                 taken.push(place);
-                return self.strokes(middle);
+                return Lettering::new(self.height).block(middle, self.lines);
             }
         }
         Vec::new()
-    }
-
-    /// Its lines about their middle.
-    fn strokes(&self, [x, y]: Point) -> Vec<Vec<Point>> {
-        let above = |i: usize| (self.lines.len() as f64 - 1.0) / 2.0 - i as f64;
-        let line = |(i, text): (usize, &String)| {
-            Lettering::new(self.height).centred([x, y + above(i) * 1.5 * self.height], text)
-        };
-        self.lines.iter().enumerate().flat_map(line).collect()
     }
 }
 
@@ -190,24 +181,6 @@ fn circle([x, y]: Point, radius: f64) -> Vec<Point> {
     (0..=CIRCLE).map(point).collect()
 }
 
-/// Lower left and upper right corner of the box round some points.
-fn bounds(points: &[Point]) -> [Point; 2] {
-    let start = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    points.iter().fold(start, |[lo, hi], p| {
-        [[lo[0].min(p[0]), lo[1].min(p[1])], [hi[0].max(p[0]), hi[1].max(p[1])]]
-    })
-}
-
 fn overlap([a, b]: &[Point; 2], [c, d]: &[Point; 2]) -> bool {
     (0..2).all(|i| a[i] <= d[i] && c[i] <= b[i])
-}
-
-/// Whether a point lies in a ring: a line from it to the right crosses the ring an odd number
-/// of times.
-fn holds(ring: &[Point], [x, y]: Point) -> bool {
-    let next = ring.iter().cycle().skip(1);
-    let crossings = ring.iter().zip(next).filter(|(a, b)| {
-        (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
-    });
-    crossings.count() % 2 == 1
 }

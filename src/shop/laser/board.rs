@@ -1,6 +1,7 @@
 //! A part cut from flat board.
 
 use super::offset::offset;
+use super::ring::{bounds, rectangle};
 
 /// A place on a board, mm; y up, seen from the marked side.
 pub type Point = [f64; 2];
@@ -81,10 +82,7 @@ impl Board {
 
     /// Lower left and upper right corner of the box round the outline.
     pub fn bounds(&self) -> [Point; 2] {
-        let start = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        self.outline.iter().fold(start, |[lo, hi], p| {
-            [[lo[0].min(p[0]), lo[1].min(p[1])], [hi[0].max(p[0]), hi[1].max(p[1])]]
-        })
+        bounds(&self.outline)
     }
 
     /// Width and height of that box.
@@ -118,11 +116,6 @@ impl Board {
             exact: self.exact,
         }
     }
-}
-
-/// The corners of an upright rectangle, counter-clockwise from the lower left.
-pub fn rectangle([x, y]: Point, [w, h]: [f64; 2]) -> Vec<Point> {
-    vec![[x, y], [x + w, y], [x + w, y + h], [x, y + h]]
 }
 
 #[cfg(test)]

@@ -126,6 +126,19 @@ impl Lettering {
         let (x, y) = (-width_of(text, self.height) / 2.0, -self.height / 2.0);
         self.at([middle[0] + x * cos - y * sin, middle[1] + x * sin + y * cos], text)
     }
+
+    /// The strokes of lines of upright text, one below the other about a point.
+    pub fn block(self, [x, y]: Point, lines: &[String]) -> Vec<Vec<Point>> {
+        let above = |i: usize| (lines.len() as f64 - 1.0) / 2.0 - i as f64;
+        let line =
+            |(i, text): (usize, &String)| self.centred([x, y + above(i) * 1.5 * self.height], text);
+        lines.iter().enumerate().flat_map(line).collect()
+    }
+}
+
+/// The height of lines of text of capitals so high: half that is free between them.
+pub fn height_of(lines: &[String], height: f64) -> f64 {
+    height * (1.5 * lines.len() as f64 - 0.5)
 }
 
 /// The width of a line of text of capitals so high.

@@ -10,9 +10,11 @@ mod letters;
 mod material;
 mod nest;
 mod offset;
+mod ring;
 
-pub use board::{Board, Curve, Point, rectangle};
-pub use letters::{Lettering, width_of};
+pub use board::{Board, Curve, Point};
+pub use letters::{Lettering, height_of, width_of};
 pub use material::Material;
 pub use nest::{GAP, MARGIN, Nest, REFERENCE, Spot, nest, room};
-pub use offset::{area, offset};
+pub use offset::offset;
+pub use ring::{area, bounds, holds, rectangle};

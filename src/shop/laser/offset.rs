@@ -1,12 +1,6 @@
 //! Outlines moved sideways, for the width of the cut.
 
-use super::Point;
-
-/// The area of a ring, positive if it runs counter-clockwise.
-pub fn area(ring: &[Point]) -> f64 {
-    let next = ring.iter().cycle().skip(1);
-    ring.iter().zip(next).map(|(a, b)| (a[0] * b[1] - a[1] * b[0]) / 2.0).sum()
-}
+use super::{Point, area};
 
 /// A ring grown by `by` on all sides, or shrunk where that is negative; corners stay sharp.
 /// `None` where a side would vanish: the ring has details finer than that.

@@ -85,7 +85,7 @@ impl<'a> Chooser<'a> {
     }
 
     /// Counts costs again round a unit that was placed.
-    pub fn placed(&mut self, unit: UnitId, _: &Site) {
+    pub fn placed(&mut self, unit: UnitId) {
         self.last = Some(unit);
         self.cost[unit] = None;
         for &near in self.neighbors.of(unit) {

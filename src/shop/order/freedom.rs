@@ -51,13 +51,8 @@ impl Pose {
     /// The pose of a rod.
     pub fn new(frame: &Frame, rod: RodId) -> Self {
         let axis = &frame.rods[rod].axis;
-        let along = axis.direction();
-        // The axis of space that is farthest from the rod's makes the best side.
-        let away = along.map(f64::abs).imin();
-        let mut other = Vector3::zeros();
-        other[away] = 1.0;
-        let side = along.cross(&other).normalize();
-        Self { start: axis.a, along, sides: [side, along.cross(&side)], half: axis.length() / 2.0 }
+        let (along, sides) = (axis.direction(), axis.sides());
+        Self { start: axis.a, along, sides, half: axis.length() / 2.0 }
     }
 
     /// The poses of all rods.

@@ -161,13 +161,17 @@ impl Assembly {
 
     /// The most props that stand at once.
     pub fn most_props(&self) -> usize {
-        let (mut standing, mut most) = (0, 0);
-        for step in &self.steps {
-            standing += step.props.len();
-            most = most.max(standing);
-            standing -= step.remove_props.len();
-        }
-        most
+        self.standing().map(|props| props.len()).max().unwrap_or(0)
+    }
+
+    /// The props that stand while each step is done, in the order in which they were set.
+    pub fn standing(&self) -> impl Iterator<Item = Vec<Prop>> {
+        self.steps.iter().scan(Vec::new(), |props: &mut Vec<Prop>, step| {
+            props.extend(&step.props);
+            let now = props.clone();
+            props.retain(|prop| !step.remove_props.contains(&prop.id));
+            Some(now)
+        })
     }
 
     /// How often a rod is lifted to slide another under it.
@@ -235,7 +239,7 @@ fn assembled(
             step.checks = checks::checks(&site, &step);
             steps.push(step);
         }
-        chooser.placed(unit, &site);
+        chooser.placed(unit);
     }
     let missed = match steps.last_mut() {
         Some(last) => bracing.clear(last),

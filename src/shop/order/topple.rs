@@ -7,6 +7,7 @@ use super::rests::resting_ends;
 use super::site::Site;
 use crate::frame::{Frame, Rod};
 use crate::ids::{Id, RodId};
+use crate::shop::Stick;
 use crate::surface::hull::{convex_hull, depth_in};
 use std::collections::BTreeSet;
 
@@ -147,10 +148,9 @@ impl Body {
     }
 }
 
-/// The volume of a rod but for a factor: it may taper.
+/// The volume of a rod, mm³.
 fn volume(rod: &Rod) -> f64 {
-    let [a, b] = rod.diameters;
-    rod.axis.length() * (a * a + a * b + b * b) / 3.0
+    Stick { length: rod.axis.length(), diameters: rod.diameters }.volume()
 }
 
 #[cfg(test)]

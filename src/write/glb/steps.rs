@@ -137,13 +137,8 @@ impl<'a> Film<'a> {
         let mut nodes = Vec::new();
         for (number, step) in assembly.steps.iter().enumerate() {
             for prop in &step.props {
-                let removed = |(_, later): &(usize, &crate::shop::order::Step)| {
-                    later.remove_props.contains(&prop.id)
-                };
-                let later = assembly.steps.iter().enumerate().skip(number);
-                let until = { later }.find(removed).map(|(last, _)| last);
                 let node = self.root.push(prop_node(prop, mesh));
-                self.show(node, number, until);
+                self.show(node, number, assembly.removal(prop.id));
                 nodes.push(node);
             }
         }
