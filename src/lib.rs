@@ -45,6 +45,7 @@ pub mod pattern;
 pub mod pipeline;
 pub mod sheets;
 pub mod shop;
+pub mod statics;
 pub mod surface;
 pub mod tiling;
 pub mod units;

@@ -1,0 +1,57 @@
+//! What rods are made of. Forces in N, lengths in mm, stresses in MPa, densities in kg/m³.
+
+/// A straight-grained or even material of a rod: elastic, the same along its whole length.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Material {
+    /// Young's modulus along the rod, MPa.
+    pub young: f64,
+    /// Shear modulus, MPa. In wood it is no function of E and ν.
+    pub shear: f64,
+    /// Poisson's ratio, for the shear area only.
+    pub poisson: f64,
+    /// Density, kg/m³.
+    pub density: f64,
+    /// Bending strength, MPa.
+    pub strength: f64,
+}
+
+/// Standard gravity, m/s².
+pub const GRAVITY: f64 = 9.80665;
+
+impl Material {
+    /// Weight of a volume, N/mm³.
+    pub fn weight(&self) -> f64 {
+        self.density * GRAVITY * 1e-9
+    }
+
+    /// One of the table by its name.
+    pub fn named(name: &str) -> Option<Self> {
+        TABLE.iter().find(|(known, _)| *known == name).map(|(_, material)| *material)
+    }
+}
+
+/// Materials by name. Strengths are those that the source names, without safety factors.
+///
+/// - `pine`: softwood of class C24, EN 338: mean E and G, characteristic bending strength,
+///   mean density.
+/// - `bamboo`: round culms, typical means of tests after ISO 22157, as ISO 22156 asks for
+///   them; culms are hollow, and rods here are solid. Test your own.
+/// - `birch`: dowels of clear yellow birch at 12 % moisture, Wood Handbook (FPL-GTR-282),
+///   chapter 5: E, bending strength (modulus of rupture), density; G by G/E ≈ 0.07.
+/// - `paper`: the wood of the paper that this program follows, E and density; ν as there is
+///   none given is 0.3, G = E / 2(1 + ν); strength as C24.
+/// - `steel`: S235, EN 1993-1-1: E, G, ν and yield stress.
+pub const TABLE: [(&str, Material); 5] = [
+    ("pine", wood(11_000.0, 690.0, 420.0, 24.0)),
+    ("bamboo", wood(15_000.0, 1_000.0, 700.0, 50.0)),
+    ("birch", wood(13_900.0, 970.0, 660.0, 114.0)),
+    ("paper", wood(11_000.0, 11_000.0 / 2.6, 800.0, 24.0)),
+    (
+        "steel",
+        Material { young: 210e3, shear: 81e3, poisson: 0.3, density: 7850.0, strength: 235.0 },
+    ),
+];
+
+const fn wood(young: f64, shear: f64, density: f64, strength: f64) -> Material {
+    Material { young, shear, poisson: 0.3, density, strength }
+}
