@@ -17,7 +17,7 @@
 //! ```
 //!
 //! The room knows no rods and no paper formats. Its parts: what can be drawn
-//! (`item`, `style`), the builders (`draw`), moving and cutting groups of items
+//! (`item`, `style`, `scale`), the builders (`draw`), moving and cutting groups of items
 //! (`place`, `clip`), the one font ([`font`]) and the renderers ([`svg`], [`pdf`], [`dxf`]).
 
 mod check;
@@ -30,6 +30,7 @@ mod geometry;
 mod item;
 pub mod pdf;
 mod place;
+mod scale;
 mod style;
 pub mod svg;
 
@@ -39,6 +40,7 @@ pub use error::DrawingError;
 pub use geometry::{Point, Rect, bounds};
 pub use item::{Anchor, Figure, Item, Shape, Text};
 pub use place::Placement;
+pub use scale::scale_color;
 pub use style::{Cap, Color, Dash, Paint, Stroke, Weight};
 
 /// Name of the layer that takes what is drawn on a [`Drawing`] before any other

@@ -48,6 +48,12 @@ impl Color {
         Self::rgb(level, level, level)
     }
 
+    /// One of the three parts, 0 to 255 in sRGB, as light from 0 to 1 (IEC 61966-2-1).
+    pub fn linear_part(part: u8) -> f64 {
+        let c = f64::from(part) / 255.0;
+        if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+    }
+
     /// The colour mixed with white: `share` 1 leaves it, 0 gives white.
     pub fn tint(self, share: f64) -> Self {
         let mix = |c: u8| (255.0 - (255.0 - f64::from(c)) * share.clamp(0.0, 1.0)).round() as u8;

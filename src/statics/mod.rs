@@ -1,7 +1,10 @@
 //! What a frame carries: its rods as beams, its contacts as stiff joints, its feet on the
 //! ground. First order, linear; no buckling, no slip.
 
+pub mod along;
 pub mod beam;
+#[cfg(test)]
+pub(crate) mod fixture;
 pub mod framework;
 pub mod joint;
 pub mod load;
