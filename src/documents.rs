@@ -42,7 +42,7 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
     files.add("report.json", report(design, model).to_json()?);
     files.add("design.toml", design.to_toml(&model.fit, &stock, order));
     if design.wants(Part::Csv) {
-        files.add("rods.csv", tables::rods(frame, &classes)?);
+        files.add("rods.csv", tables::rods(frame, &classes, None)?);
         files.add("contacts.csv", tables::contacts(frame)?);
         files.add("supports.csv", tables::supports(frame)?);
         if let Some(misfit) = &model.misfit {
@@ -60,7 +60,7 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
         }
     }
     if design.wants(Part::Glb) {
-        files.add("model.glb", glb(&structure)?);
+        files.add("model.glb", glb(&structure, None)?);
     }
     if design.wants(Part::Viewer) {
         let settings = sheet_settings(design, model)?;

@@ -136,7 +136,7 @@ pub fn surface_file(mesh: &Mesh, format: Format) -> Result<Option<Vec<u8>>, GlbE
 /// [`ConvertError`], where the structure does not hang together.
 pub fn structure_file(structure: &Structure, format: Format) -> Result<Vec<u8>, ConvertError> {
     Ok(match format {
-        Format::Glb => glb(structure)?,
+        Format::Glb => glb(structure, None)?,
         Format::Gltf => gltf(structure)?.into_bytes(),
         Format::Obj => rods_obj(structure).into_bytes(),
         Format::Stl => rods_stl(structure),
@@ -148,7 +148,7 @@ pub fn structure_file(structure: &Structure, format: Format) -> Result<Vec<u8>, 
         Format::Json => structure.to_json()?.into_bytes(),
         Format::Csv => {
             let frame = structure.to_frame()?;
-            tables::rods(&frame, &classes(&frame))?
+            tables::rods(&frame, &classes(&frame), None)?
         }
         Format::ContactsCsv => tables::contacts(&structure.to_frame()?)?,
         Format::SupportsCsv => tables::supports(&structure.to_frame()?)?,

@@ -3,7 +3,8 @@
 //! Every rod is a node of its own name with a shape that it shares with the rods that are cut
 //! like it, placed by translation, rotation and scale: the node's origin is end A, its y axis
 //! runs along the rod, and its x axis upward as far as it can. Ends are flat: square, or level
-//! where the rod stands on the ground. The material tells how a rod ends ([`look`]).
+//! where the rod stands on the ground. The material tells how a rod ends ([`look`]), or how far it
+//! is used up ([`stress`]).
 //! Contacts and supports are empty nodes. Figures of each stand in its `extras`, in mm and
 //! degrees.
 //!
@@ -12,9 +13,11 @@
 
 mod cylinder;
 mod look;
+mod materials;
 mod parts;
 mod plain;
 mod steps;
+mod stress;
 
 pub use plain::{mesh_glb, mesh_gltf};
 pub use steps::assembly_glb;
@@ -24,17 +27,20 @@ use super::rod_shape::{RodShapes, across};
 use super::structure::{
     ContactEntry, ContactKindName, DiameterEntry, EndName, RodEntry, Structure, SupportEntry,
 };
+use crate::statics::study::Study;
 use cylinder::{Cylinder, push_cylinders};
 use gltf::binary::{Glb, Header};
 use gltf_json::extras::{Extras, RawValue};
 use gltf_json::scene::UnitQuaternion;
 use gltf_json::{Index, Mesh, Node, Root, Scene};
-use look::{Look, Materials};
+use look::Look;
+use materials::Materials;
 use nalgebra::{Matrix3, Point3, Vector3};
 use plain::data_uri;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::collections::HashMap;
+use stress::{Shown, StressFigures, Stresses};
 use thiserror::Error;
 
 /// Why no model file could be made.
@@ -54,12 +60,16 @@ pub enum GlbError {
 /// Digits after the point of figures in extras: a nanometre, a millionth of a degree.
 const DIGITS: i32 = 6;
 
-/// The bytes of the model file.
+/// The bytes of the model file. With a study of the frame, which has its rods in the same order,
+/// rods have the colours of their stresses, and tell them in their extras.
 ///
 /// # Errors
 /// [`GlbError`]; a structure that passes [`Structure::check`] gives none.
-pub fn glb(structure: &Structure) -> Result<Vec<u8>, GlbError> {
-    let (root, buffer) = document(structure, |_| None)?;
+pub fn glb(structure: &Structure, study: Option<&Study>) -> Result<Vec<u8>, GlbError> {
+    let (mut root, buffer) = document(structure, study, |_| None)?;
+    if let Some(study) = study {
+        root.scenes[0].extras = stress::scene_extras(study)?;
+    }
     wrap(&root, buffer)
 }
 
@@ -68,20 +78,22 @@ pub fn glb(structure: &Structure) -> Result<Vec<u8>, GlbError> {
 /// # Errors
 /// As [`glb`].
 pub fn gltf(structure: &Structure) -> Result<String, GlbError> {
-    let (root, _) = document(structure, |buffer| Some(data_uri(buffer)))?;
+    let (root, _) = document(structure, None, |buffer| Some(data_uri(buffer)))?;
     Ok(gltf_json::serialize::to_string(&root)? + "\n")
 }
 
 /// The document and its buffer, which `uri` says how to find.
 fn document(
     structure: &Structure,
+    study: Option<&Study>,
     uri: impl FnOnce(&[u8]) -> Option<String>,
 ) -> Result<(Root, Vec<u8>), GlbError> {
     let mut root = Root::default();
     root.asset.generator = Some(generator());
     let shapes = RodShapes::new(structure);
     let (cylinders, buffer) = push_cylinders(&mut root, &shapes.all, uri);
-    let rods = rod_nodes(&mut root, structure, &shapes, &cylinders)?;
+    let stresses = study.map(Stresses::new);
+    let rods = rod_nodes(&mut root, structure, &shapes, &cylinders, stresses.as_ref())?;
     let contacts = contact_nodes(&mut root, structure)?;
     let supports = support_nodes(&mut root, structure)?;
     let groups = [("rods", rods), ("contacts", contacts), ("supports", supports)];
@@ -183,6 +195,8 @@ struct RodFigures<'a> {
     marks: &'a [MarkFigures<'a>],
     #[serde(skip_serializing_if = "Option::is_none")]
     support: Option<&'static str>,
+    #[serde(flatten)]
+    stress: Option<StressFigures>,
 }
 
 fn rod_nodes(
@@ -190,13 +204,17 @@ fn rod_nodes(
     structure: &Structure,
     shapes: &RodShapes,
     cylinders: &[Cylinder],
+    stresses: Option<&Stresses>,
 ) -> Result<Vec<Index<Node>>, GlbError> {
     let (notes, none) = (notes(structure), Notes::default());
-    let mut meshes = Meshes { cylinders, materials: Materials::default(), made: HashMap::new() };
+    let (materials, made) = (Materials::default(), HashMap::new());
+    let mut meshes = Meshes { cylinders, stresses, materials, made };
     let mut nodes = Vec::with_capacity(structure.rods.len());
-    for (rod, &shape) in structure.rods.iter().zip(&shapes.of) {
+    for (i, (rod, &shape)) in structure.rods.iter().zip(&shapes.of).enumerate() {
         let note = notes.get(rod.id.as_str()).unwrap_or(&none);
-        let mesh = meshes.of(root, shape, Look::of(rod, note.marks.iter().map(|m| m.side)));
+        let look = Look::of(rod, note.marks.iter().map(|m| m.side));
+        let shown = stresses.map_or(Shown::Ends(look), |s| Shown::Used(s.step(i)));
+        let mesh = meshes.of(root, shape, look, shown);
         let figures = RodFigures {
             length_mm: rounded(rod.length, DIGITS),
             diameter_mm: structure.diameters(rod).into(),
@@ -206,6 +224,7 @@ fn rod_nodes(
             contacts: note.marks.iter().map(|m| m.contact).collect(),
             marks: &note.marks,
             support: note.support.map(EndName::letter),
+            stress: stresses.map(|s| s.figures(i)),
         };
         let node = Node { mesh: Some(mesh), extras: extras(&figures)?, ..placed(rod, structure) };
         nodes.push(root.push(node));
@@ -213,19 +232,21 @@ fn rod_nodes(
     Ok(nodes)
 }
 
-/// The meshes of rods: one for each shape in each material that it comes in.
+/// The meshes of rods: one for each shape in each material that it comes in; it is named by how
+/// its rods end.
 struct Meshes<'a> {
     cylinders: &'a [Cylinder],
+    stresses: Option<&'a Stresses>,
     materials: Materials,
-    made: HashMap<(usize, Look), Index<Mesh>>,
+    made: HashMap<(usize, Look, Shown), Index<Mesh>>,
 }
 
 impl Meshes<'_> {
     /// A mesh without nodes would be left over, so each is made when first needed.
-    fn of(&mut self, root: &mut Root, shape: usize, look: Look) -> Index<Mesh> {
-        let Self { cylinders, materials, made } = self;
-        *made.entry((shape, look)).or_insert_with(|| {
-            let material = materials.of(root, look);
+    fn of(&mut self, root: &mut Root, shape: usize, look: Look, shown: Shown) -> Index<Mesh> {
+        let Self { cylinders, stresses, materials, made } = self;
+        *made.entry((shape, look, shown)).or_insert_with(|| {
+            let material = materials.of(root, shown, *stresses);
             root.push(cylinders[shape].mesh(look.name(), material))
         })
     }

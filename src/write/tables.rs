@@ -12,6 +12,8 @@ use crate::ids::{ContactId, IdVec, RodId};
 use crate::shop::feet;
 use crate::shop::lengths::LengthClasses;
 use crate::shop::marks;
+use crate::statics::along::{RodFigures, rod_figures};
+use crate::statics::study::Study;
 use csv::Writer;
 use thiserror::Error;
 
@@ -33,6 +35,10 @@ pub const RODS: [&str; 13] = [
     "support",
     "diameter_b_mm",
 ];
+
+/// What `rods.csv` has besides where the statics ran: the largest stress of the rod, how far from
+/// its end A, and that stress by the strength; how far it moves at most, at the size studied.
+pub const STRESSED: [&str; 4] = ["stress_mpa", "stress_at_mm", "utilisation", "displacement_mm"];
 
 /// The columns of `contacts.csv`. A clock angle tells where the partner lies round
 /// the rod: clockwise, seen from its end A, with its first contact at 0.
@@ -70,6 +76,9 @@ pub struct TableError {
 const LENGTH_DIGITS: usize = 3;
 /// Digits after the point of angles, degrees.
 const ANGLE_DIGITS: usize = 3;
+/// Digits after the point of stresses, utilisations and displacements: sticks of a model may
+/// carry a thousandth of what they could.
+const STRESS_DIGITS: usize = 6;
 /// Digits after the point of cut lengths, mm: only the noise of arithmetic goes.
 const CUT_DIGITS: usize = 6;
 
@@ -88,11 +97,16 @@ fn turn(x: f64) -> String {
     if text == "360" { "0".into() } else { text }
 }
 
-/// The bytes of `rods.csv`.
+/// The bytes of `rods.csv`; with a study of the frame, its figures stand in columns at the end.
 ///
 /// # Errors
 /// [`TableError`], which none of a frame's figures causes.
-pub fn rods(frame: &Frame, classes: &LengthClasses) -> Result<Vec<u8>, TableError> {
+pub fn rods(
+    frame: &Frame,
+    classes: &LengthClasses,
+    study: Option<&Study>,
+) -> Result<Vec<u8>, TableError> {
+    let figures = study.map(rod_figures);
     let row = |(r, rod): (RodId, &crate::frame::Rod)| {
         let contacts: Vec<String> =
             marks::marks(frame, r).iter().map(|m| m.contact.to_string()).collect();
@@ -107,9 +121,20 @@ pub fn rods(frame: &Frame, classes: &LengthClasses) -> Result<Vec<u8>, TableErro
         cells.push(contacts.join(" "));
         cells.push(standing_ends(frame, r));
         cells.push(figure(rod.diameters[1], CUT_DIGITS));
+        cells.extend(figures.iter().flat_map(|figures| stressed(&figures[r])));
         cells
     };
-    table("rods.csv", &RODS, frame.rods.enumerate().map(row))
+    let more = if figures.is_some() { &STRESSED[..] } else { &[] };
+    table("rods.csv", &[&RODS[..], more].concat(), frame.rods.enumerate().map(row))
+}
+
+/// The cells of a rod under [`STRESSED`].
+fn stressed(rod: &RodFigures) -> [String; 4] {
+    let RodFigures { stress, at, utilisation, displacement, .. } = *rod;
+    let at = length(at);
+    let [stress, utilisation, displacement] =
+        [stress, utilisation, displacement].map(|x| figure(x, STRESS_DIGITS));
+    [stress, at, utilisation, displacement]
 }
 
 /// The letters of a rod's ends on the ground.
@@ -205,6 +230,7 @@ mod tests {
     use crate::ids::Id;
     use crate::shop::fixture::circuit;
     use crate::shop::lengths::classes;
+    use crate::statics::fixture::studied;
 
     fn rows(bytes: &[u8]) -> Vec<Vec<String>> {
         let mut reader = csv::Reader::from_reader(bytes);
@@ -219,7 +245,7 @@ mod tests {
     fn headers_are_those_of_the_contract() {
         let frame = circuit(3, 3.0);
         assert_eq!(
-            first_line(&rods(&frame, &classes(&frame)).unwrap()),
+            first_line(&rods(&frame, &classes(&frame), None).unwrap()),
             "id,cut_length_mm,diameter_mm,class,ax,ay,az,bx,by,bz,contacts,support,diameter_b_mm"
         );
         assert_eq!(
@@ -237,7 +263,7 @@ mod tests {
         let mut frame = circuit(4, 3.0);
         frame.supports.remove(1);
         frame.rods[RodId::new(2)].diameters = [3.0, 2.25];
-        let rows = rows(&rods(&frame, &classes(&frame)).unwrap());
+        let rows = rows(&rods(&frame, &classes(&frame), None).unwrap());
         assert_eq!(rows.len(), 4);
         for (row, (r, rod)) in rows.iter().zip(frame.rods.enumerate()) {
             let number = |i: usize| row[i].parse::<f64>().unwrap();
@@ -255,6 +281,33 @@ mod tests {
             assert_eq!(row[10].split(' ').count(), 2);
         }
         assert_eq!([&rows[0][11], &rows[1][11]], ["A", ""]);
+    }
+
+    #[test]
+    fn rows_of_a_studied_frame_end_with_its_figures() {
+        let (frame, study) = studied(5, 4.0);
+        let plain = rods(&frame, &classes(&frame), None).unwrap();
+        let bytes = rods(&frame, &classes(&frame), Some(&study)).unwrap();
+        let header = "stress_mpa,stress_at_mm,utilisation,displacement_mm";
+        assert_eq!(first_line(&bytes), format!("{},{header}", first_line(&plain)));
+        let worst = study.worst();
+        for ((with, without), worst) in rows(&bytes).iter().zip(rows(&plain)).zip(worst) {
+            assert_eq!(with[..13], without);
+            let [stress, at, used, moved] = [13, 14, 15, 16].map(|i| with[i].parse().unwrap());
+            let peak = study.cases[worst.case].rods[worst.rod.index()];
+            let near = |a: f64, b: f64, by: f64| assert!((a - b).abs() <= by, "{a} {b}");
+            near(stress, peak.stress, 1e-6);
+            near(at, peak.at / 4.0, 1e-3);
+            near(used, peak.utilisation, 1e-6);
+            let nodes = &study.framework.rods[worst.rod];
+            let of = |case: &crate::statics::study::Case| {
+                let moved =
+                    nodes.iter().map(|(_, n)| case.response.moved[*n].fixed_rows::<3>(0).norm());
+                moved.fold(0.0, f64::max)
+            };
+            near(moved, study.cases.iter().map(of).fold(0.0, f64::max), 1e-6);
+            assert!(stress > 0.0 && used < 1.0);
+        }
     }
 
     #[test]

@@ -2,7 +2,6 @@
 //! frame are to be tied.
 
 use super::super::structure::RodEntry;
-use gltf_json::{Index, Material, Root};
 
 /// How a rod ends.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -46,7 +45,7 @@ impl Look {
     }
 
     /// Linear RGBA: wood, and colours of the Okabe-Ito palette, lightened, for what is tied.
-    fn color(self) -> [f32; 4] {
+    pub fn color(self) -> [f32; 4] {
         match self {
             Self::EndsOver => [0.63, 0.41, 0.19, 1.0],
             Self::EndsUnder => [0.05, 0.27, 0.55, 1.0],
@@ -54,24 +53,5 @@ impl Look {
             Self::EndsMeet => [0.60, 0.25, 0.42, 1.0],
             Self::Border => [0.25, 0.12, 0.05, 1.0],
         }
-    }
-}
-
-/// The materials of a file, each made when first needed.
-#[derive(Default)]
-pub(super) struct Materials(Vec<(Look, Index<Material>)>);
-
-impl Materials {
-    pub fn of(&mut self, root: &mut Root, look: Look) -> Index<Material> {
-        if let Some((_, material)) = self.0.iter().find(|(known, _)| *known == look) {
-            return *material;
-        }
-        let mut material = Material { name: Some(look.name().to_owned()), ..Material::default() };
-        material.pbr_metallic_roughness.base_color_factor.0 = look.color();
-        material.pbr_metallic_roughness.metallic_factor.0 = 0.0;
-        material.pbr_metallic_roughness.roughness_factor.0 = 0.8;
-        let material = root.push(material);
-        self.0.push((look, material));
-        material
     }
 }

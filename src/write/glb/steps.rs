@@ -26,7 +26,7 @@ const REST: f32 = 3.0;
 /// # Errors
 /// [`GlbError`], also where the assembly has a rod that the structure does not have.
 pub fn assembly_glb(structure: &Structure, assembly: &Assembly) -> Result<Vec<u8>, GlbError> {
-    let (mut root, mut buffer) = document(structure, |_| None)?;
+    let (mut root, mut buffer) = document(structure, None, |_| None)?;
     pad(&mut buffer);
     let nodes: HashMap<String, Index<Node>> = root
         .nodes

@@ -1,4 +1,5 @@
 use super::*;
+use crate::drawing::Color;
 use crate::shop::fixture::circuit;
 use crate::shop::lengths::classes;
 use gltf::Gltf;
@@ -33,7 +34,7 @@ fn cylinders_lie_on_the_axes_of_their_rods() {
     s.rods[1].b = [s.rods[1].a[0], s.rods[1].a[1], -500.0];
     s.rods[2].b = [s.rods[2].a[0] + 1e-4, s.rods[2].a[1], -5000.0];
     s.rods[3].diameter = Some([5.0, 5.0].into());
-    let gltf = Gltf::from_slice(&glb(&s).unwrap()).unwrap();
+    let gltf = Gltf::from_slice(&glb(&s, None).unwrap()).unwrap();
     for rod in &s.rods {
         let n = node(&gltf, &rod.id);
         let matrix: Matrix4<f32> = n.transform().matrix().into();
@@ -55,7 +56,7 @@ fn counts(gltf: &Gltf) -> [usize; 3] {
 #[test]
 fn rods_that_are_cut_alike_share_a_shape() {
     let mut s = standing();
-    let gltf = |s: &Structure| Gltf::from_slice(&glb(s).unwrap()).unwrap();
+    let gltf = |s: &Structure| Gltf::from_slice(&glb(s, None).unwrap()).unwrap();
     assert_eq!(counts(&gltf(&s)), [3, 1, 1], "a regular circuit");
     s.supports.remove(0);
     assert_eq!(counts(&gltf(&s)), [5, 2, 1], "one stands no more");
@@ -68,7 +69,7 @@ fn the_material_tells_how_a_rod_ends() {
     let mut s = structure();
     s.supports.clear();
     let material = |s: &Structure, name: &str| {
-        let gltf = Gltf::from_slice(&glb(s).unwrap()).unwrap();
+        let gltf = Gltf::from_slice(&glb(s, None).unwrap()).unwrap();
         let mesh = node(&gltf, name).mesh().unwrap();
         let material = mesh.primitives().next().unwrap().material();
         material.name().unwrap().to_owned()
@@ -106,7 +107,7 @@ fn rods_are_round_and_taper_and_stand_level_on_the_ground() {
     s.rods[2].diameter = Some([3.0, 2.0].into());
     s.rods[3].diameter = Some([4.0, 6.0].into());
     s.supports.remove(4);
-    let gltf = Gltf::from_slice(&glb(&s).unwrap()).unwrap();
+    let gltf = Gltf::from_slice(&glb(&s, None).unwrap()).unwrap();
     let buffers = [gltf.blob.clone().unwrap()];
     for rod in &s.rods {
         let n = node(&gltf, &rod.id);
@@ -139,7 +140,7 @@ fn rods_are_round_and_taper_and_stand_level_on_the_ground() {
 #[test]
 fn the_text_form_holds_the_same() {
     let s = structure();
-    let binary = Gltf::from_slice(&glb(&s).unwrap()).unwrap();
+    let binary = Gltf::from_slice(&glb(&s, None).unwrap()).unwrap();
     let text = Gltf::from_slice(gltf(&s).unwrap().as_bytes()).unwrap();
     let names = |g: &Gltf| g.nodes().map(|n| n.name().unwrap().to_owned()).collect::<Vec<_>>();
     assert_eq!(names(&binary), names(&text));
@@ -152,7 +153,7 @@ fn the_text_form_holds_the_same() {
 #[test]
 fn contacts_and_supports_are_named_points() {
     let s = structure();
-    let gltf = Gltf::from_slice(&glb(&s).unwrap()).unwrap();
+    let gltf = Gltf::from_slice(&glb(&s, None).unwrap()).unwrap();
     let at = |name: &str| back(Point3::from(node(&gltf, name).transform().decomposed().0));
     for c in &s.contacts {
         let [over, under] = [(&c.over, c.at_over), (&c.under, c.at_under)].map(|(id, at)| {
@@ -174,7 +175,7 @@ fn contacts_and_supports_are_named_points() {
 #[test]
 fn figures_stand_in_the_extras() {
     let s = structure();
-    let gltf = Gltf::from_slice(&glb(&s).unwrap()).unwrap();
+    let gltf = Gltf::from_slice(&glb(&s, None).unwrap()).unwrap();
     let figures = |name: &str| -> serde_json::Value {
         let extras = node(&gltf, name).extras().clone().unwrap();
         serde_json::from_str(extras.get()).unwrap()
@@ -198,9 +199,43 @@ fn figures_stand_in_the_extras() {
 #[test]
 fn the_file_is_whole_and_the_same_every_time() {
     let s = structure();
-    let bytes = glb(&s).unwrap();
-    assert_eq!(bytes, glb(&s).unwrap());
+    let bytes = glb(&s, None).unwrap();
+    assert_eq!(bytes, glb(&s, None).unwrap());
     assert_eq!(bytes.len() % 4, 0);
     assert_eq!(&bytes[..4], b"glTF");
     assert_eq!(u32::from_le_bytes(bytes[8..12].try_into().unwrap()) as usize, bytes.len());
+}
+
+#[test]
+fn a_studied_frame_has_the_colours_of_its_stresses() {
+    let (frame, study) = crate::statics::fixture::studied(5, 2.0);
+    let s = Structure::from_frame(&frame, &classes(&frame), &[]);
+    let gltf = Gltf::from_slice(&glb(&s, Some(&study)).unwrap()).unwrap();
+    let worst = study.worst();
+    let largest = worst.iter().map(|w| w.value).fold(0.0, f64::max);
+    let read = |extras: &gltf_json::Extras| -> serde_json::Value {
+        serde_json::from_str(extras.as_ref().unwrap().get()).unwrap()
+    };
+    for (rod, worst) in s.rods.iter().zip(&worst) {
+        let node = node(&gltf, &rod.id);
+        let figures = read(node.extras());
+        assert_eq!(figures["utilisation"], rounded(worst.value, 6));
+        assert_eq!(figures["stress_at_mm"], rounded(worst.at / 2.0, 6));
+        let mesh = node.mesh().unwrap();
+        assert_eq!(mesh.name(), Some("border rods"));
+        let material = mesh.primitives().next().unwrap().material();
+        let [r, g, ..] = material.pbr_metallic_roughness().base_color_factor();
+        let share = worst.value / largest;
+        // Green falls all along the scale; within half a step of 32.
+        let at = |share: f64| Color::linear_part(crate::drawing::scale_color(share).g) as f32;
+        assert!(g <= at(share - 0.016) + 1e-3 && g >= at(share + 0.016) - 1e-3, "{share}");
+        assert!(r > g);
+    }
+    let scene = read(gltf.default_scene().unwrap().extras());
+    assert_eq!(scene["statics"]["most"]["utilisation"], rounded(largest, 6));
+    assert_eq!(scene["statics"]["most"]["color"], "#993404");
+    assert_eq!(
+        (&scene["statics"]["material"], &scene["statics"]["scale"]),
+        (&"pine".into(), &2.0.into())
+    );
 }
