@@ -61,7 +61,7 @@ impl Line {
         [self.ends[0][0] + x * share, self.ends[0][1] + y * share]
     }
 
-    fn depth_at(&self, share: f64) -> f64 {
+    pub fn depth_at(&self, share: f64) -> f64 {
         self.depth[0] + (self.depth[1] - self.depth[0]) * share
     }
 
@@ -130,7 +130,7 @@ fn thinned(points: impl Iterator<Item = Point>) -> Vec<Point> {
 }
 
 /// Marks what each line loses to the others.
-fn hide(lines: &mut [Line]) {
+pub(super) fn hide(lines: &mut [Line]) {
     for i in 0..lines.len() {
         for j in i + 1..lines.len() {
             if let Some((second, stretch)) = covered(&lines[i], &lines[j]) {

@@ -2,7 +2,7 @@
 //!
 //! [`sheets`] gives the pages of the workshop document: cover, figures, parts, cut list with
 //! sawing plan, rod cards, the steps of assembly and the table of feet. [`histograms`] shows
-//! some of the figures. [`support_map`] gives the map of the feet at full size, in one piece and
+//! some of the figures. [`statics_sheets`] shows where a frame is stressed. [`support_map`] gives the map of the feet at full size, in one piece and
 //! tiled over pages, [`footprint`] the surface laid flat, [`labels`] a label for each rod,
 //! [`jigs`] the sheets for a laser, [`viewer`] a page for a browser.
 //! [`pattern_picture`], [`pattern_sheet`] and [`contact_sheet`] show what there is to choose
@@ -30,6 +30,7 @@ mod pattern_sheet;
 mod pictures;
 mod profile;
 mod rod_cards;
+pub mod statics;
 mod step_labels;
 mod step_picture;
 mod step_text;
@@ -54,6 +55,7 @@ pub use pattern_picture::{PictureError, pattern_picture};
 pub use pattern_sheet::{PatternEntry, pattern_sheet};
 pub use pictures::pictures;
 pub use profile::LaserProfile;
+pub use statics::statics_sheets;
 pub use text::{Language, TextError, Texts, built_in_files};
 
 use crate::drawing::DrawingError;

@@ -18,6 +18,7 @@ messages! {
         "steps" => Steps { model: String }
         "labels" => Labels { model: String }
         "handout" => Handout { model: String }
+        "statics" => Statics { model: String }
         "handout-title" => HandoutTitle {}
     }
 }
@@ -65,6 +66,8 @@ pub enum Document {
     Labels,
     /// The handout for a class.
     Handout,
+    /// Where the frame is stressed.
+    Statics,
 }
 
 /// The title of a document of a model.
@@ -79,6 +82,7 @@ pub fn document_title(document: Document, model: &str, texts: &Texts) -> Result<
         Document::Steps => texts.say(say::Steps { model }),
         Document::Labels => texts.say(say::Labels { model }),
         Document::Handout => texts.say(say::Handout { model }),
+        Document::Statics => texts.say(say::Statics { model }),
     }
 }
 

@@ -49,7 +49,7 @@ pub(super) struct View {
 /// How a view lies on paper.
 pub(super) struct Layout {
     /// Of the scale 1:n.
-    n: f64,
+    pub n: f64,
     from: Point,
     to: Point,
 }

@@ -3,7 +3,7 @@
 use super::message::Entry;
 use crate::sheets::{
     cover, cut_list, figures, footprint, handout, histograms, labels, legend, notes, page, parts,
-    rod_cards, step_text, strip, support_map, support_tiles, viewer,
+    rod_cards, statics, step_text, strip, support_map, support_tiles, viewer,
 };
 use serde::{Deserialize, Serialize};
 
@@ -85,6 +85,12 @@ pub(super) const FILES: &[MessageFile] = &[
     file!("cut-list.toml", cut_list::say::ENTRIES),
     file!("rod-cards.toml", rod_cards::say::ENTRIES, strip::say::ENTRIES),
     file!("steps.toml", step_text::say::ENTRIES),
+    file!(
+        "statics.toml",
+        statics::say::ENTRIES,
+        statics::say_legend::ENTRIES,
+        statics::say_tables::ENTRIES
+    ),
     file!("labels.toml", labels::say::ENTRIES),
     file!("support-map.toml", support_map::say::ENTRIES, support_tiles::say::ENTRIES),
     file!("viewer.toml", viewer::say::ENTRIES),
