@@ -64,7 +64,7 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
     }
     if design.wants(Part::Viewer) {
         let settings = sheet_settings(design, model)?;
-        files.add("viewer.html", viewer(frame, model.assembly.as_ref(), &settings)?);
+        files.add("viewer.html", viewer(frame, model.assembly.as_ref(), None, &settings)?);
     }
     if design.wants(Part::Sheets) {
         add_sheets(design, model, &mut files)?;

@@ -164,6 +164,23 @@ impl Format {
         self.local(format!("{} %", fixed(share * 100.0, 1)))
     }
 
+    /// With three digits, as what is calculated and not measured deserves.
+    pub fn three_digits(self, x: f64) -> String {
+        let decimals = if x == 0.0 { 0.0 } else { 2.0 - x.abs().log10().floor() };
+        self.fixed(x, decimals.clamp(0.0, 6.0) as usize)
+    }
+
+    /// A share in per cent to three digits: where it may be very small.
+    pub fn share(self, share: f64) -> String {
+        format!("{} %", self.three_digits(100.0 * share))
+    }
+
+    /// A length to three digits, with its unit: where it may be very small.
+    pub fn small(self, mm: f64) -> String {
+        let unit = if self.units.is_inches() { MM_PER_INCH } else { 1.0 };
+        format!("{} {}", self.three_digits(mm / unit), self.units.name())
+    }
+
     /// A weight in kg to three figures or so.
     pub fn weight(self, kg: f64) -> String {
         let decimals = match kg {
@@ -314,6 +331,24 @@ mod tests {
         assert_eq!(PaperUnits::Mm.diameters(&frame), "3.0 mm, 5.0 mm, 6.0→4.0 mm");
         frame.rods[Id::new(3)].diameters = [2.0, 3.0];
         assert_eq!(PaperUnits::Mm.diameters(&frame), "2.0–6.0 mm");
+    }
+
+    #[test]
+    fn three_digits_are_kept_of_small_and_large() {
+        let format = Format { units: PaperUnits::Inch, decimal: '.' };
+        for (x, text) in [
+            (0.0, "0"),
+            (1.0, "1.00"),
+            (12.345, "12.3"),
+            (-0.001_234, "-0.00123"),
+            (98_765.4, "98765"),
+        ] {
+            assert_eq!(format.three_digits(x), text);
+        }
+        assert_eq!(
+            (format.share(0.01), format.small(0.254)),
+            ("1.00 %".into(), "0.0100 in".into())
+        );
     }
 
     #[test]

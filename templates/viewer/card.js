@@ -35,6 +35,7 @@ function showCard() {
     make("h2", {}, rod.id),
     make("p", { class: "cut" }, `${rod.cut}, ${rod.diameter}`),
     make("p", { class: "quiet" }, facts),
+    ...(stress ? [make("p", { class: "stress" }, stress.rods[state.rod].text)] : []),
     markTable(rod),
     ...rod.foot.map((line) => make("p", {}, line)),
     print);

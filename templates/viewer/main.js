@@ -25,6 +25,7 @@ function changed() {
   showCard();
   showStep();
   showLegend();
+  showScale();
   if (paint) paint.load(sceneSticks());
   redraw();
 }
@@ -67,4 +68,5 @@ new ResizeObserver(redraw).observe(canvas);
 part("no-webgl").hidden = paint !== null;
 setUpGestures(canvas);
 setUpSteps();
+setUpStress();
 changed();

@@ -36,11 +36,22 @@ function sceneSticks() {
     const axis = unit(sub(rod.b, rod.a));
     const length = Math.hypot(...sub(rod.b, rod.a));
     const [ra, rb] = rod.d.map((d) => d / 2);
-    stick(rod.a, rod.b, ra, rb, rodColor(index, mates, look));
     const faint = (color) => (state.step === null || isNew(rod) ? color : blend(color, look.room));
     const sleeve = (from, to, color) => stick(along(rod.a, axis, from), along(rod.a, axis, to), ra * 1.06, ra * 1.06, faint(color));
+    if (state.colors === "stress") {
+      const radius = (at) => ra + ((rb - ra) * at) / length;
+      for (const [from, to, color] of stretches(index)) {
+        stick(along(rod.a, axis, from), along(rod.a, axis, to), radius(from), radius(to), faint(color));
+      }
+      if (index === state.rod) {
+        // Its colours stay: rings at the ends say that it is picked, a dark one where it is stressed most.
+        for (const at of [ra * 4, length - ra * 4]) sleeve(at - ra, at + ra, PICKED);
+        const { at } = stress.rods[index];
+        sleeve(at - ra / 2, at + ra / 2, DARKEST);
+      }
+    } else stick(rod.a, rod.b, ra, rb, rodColor(index, mates, look));
     if (state.ends) sleeve(-0.02 * ra, Math.min(ra * 3, length / 4), END_A);
-    if (state.colors !== "sides" && index !== state.rod) return;
+    if (state.colors === "stress" || (state.colors !== "sides" && index !== state.rod)) return;
     for (const m of rod.marks) {
       if (m.side !== "E") sleeve(m.x - ra, m.x + ra, m.side === "O" ? OVER : UNDER);
     }
@@ -72,6 +83,7 @@ function showLegend() {
     sides: [[OVER, "over"], [UNDER, "under"]],
     border: [[BORDER, "border-rod"], [INNER, "inner-rod"]],
     classes: [],
+    stress: [],
   }[state.colors].slice();
   if (state.ends) meanings.push([END_A, "end-a"]);
   const entry = ([color, word]) => {

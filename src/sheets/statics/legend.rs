@@ -1,6 +1,6 @@
 //! The bar that tells what colours mean, and a bar of a round length.
 
-use super::{Subject, three_digits};
+use super::Subject;
 use crate::drawing::{Color, Draw, Item, Stroke, scale_color};
 use crate::sheets::page::{BODY, SMALL};
 use crate::sheets::text::TextError;
@@ -69,7 +69,7 @@ pub(super) fn bar(subject: &Subject, room: f64) -> Result<Vec<Item>, TextError> 
 }
 
 /// Round figures from 0 to `end`, five or so.
-fn ticks(end: f64) -> Vec<f64> {
+pub(in crate::sheets) fn ticks(end: f64) -> Vec<f64> {
     if !(end > 0.0 && end.is_finite()) {
         return vec![0.0];
     }
@@ -81,7 +81,7 @@ fn ticks(end: f64) -> Vec<f64> {
 /// With the decimals of the step between ticks.
 fn tick_figure(tick: f64, end: f64, format: crate::sheets::Format) -> String {
     if end <= 0.0 {
-        return three_digits(0.0, format);
+        return format.three_digits(0.0);
     }
     let decimals = (-round_below(end / 4.0).log10().floor()).clamp(0.0, 9.0);
     format.fixed(tick, decimals as usize)

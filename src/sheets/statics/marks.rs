@@ -1,7 +1,7 @@
 //! What is marked on the rods: feet, loads, contacts that pull, the most stressed rod.
 
+use super::Subject;
 use super::labels::Labels;
-use super::{Subject, three_digits};
 use crate::drawing::{Color, Draw, DrawingError, Point, Rect, Stroke, Weight};
 use crate::sheets::page::SMALL;
 use crate::sheets::view::{Layout, View};
@@ -126,7 +126,7 @@ fn arrow(
         labels.keep(Rect { min: tip, max: tip }.inset(-1.0));
     }
     if named {
-        let name = format!("{} N", three_digits(size, subject.format()));
+        let name = format!("{} N", subject.format().three_digits(size));
         labels.name(out, tail, (&name, SMALL, Weight::Bold, Color::BLACK))?;
     }
     Ok(())

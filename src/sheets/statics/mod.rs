@@ -9,7 +9,7 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
-pub(super) use legend::say as say_legend;
+pub(super) use legend::{say as say_legend, ticks};
 pub(super) use pictures::say;
 pub(super) use tables::say as say_tables;
 
@@ -18,7 +18,6 @@ use crate::frame::Frame;
 use crate::ids::{ContactId, IdVec, RodId};
 use crate::statics::along::{RodFigures, Stretch, along, most_used, rod_figures};
 use crate::statics::study::Study;
-use crate::units::MM_PER_INCH;
 
 /// What the pages show, at the size studied.
 struct Subject<'a> {
@@ -118,21 +117,4 @@ fn sized(frame: &Frame, scale: f64) -> Frame {
         support.point *= scale;
     }
     frame
-}
-
-/// Figures of three digits.
-fn three_digits(x: f64, format: Format) -> String {
-    let decimals = if x == 0.0 { 0.0 } else { (2.0 - x.abs().log10().floor()).clamp(0.0, 6.0) };
-    format.fixed(x, decimals as usize)
-}
-
-/// A share in per cent, to three digits: models are stressed little.
-fn share(x: f64, format: Format) -> String {
-    format!("{} %", three_digits(100.0 * x, format))
-}
-
-/// A small length to three digits, with its unit.
-fn small(mm: f64, format: Format) -> String {
-    let unit = if format.units.is_inches() { MM_PER_INCH } else { 1.0 };
-    format!("{} {}", three_digits(mm / unit, format), format.units.name())
 }

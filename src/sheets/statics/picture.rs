@@ -101,8 +101,7 @@ fn colored(
     // Where the piece begins that is not drawn yet, and its step.
     let mut open: Option<(f64, f64)> = None;
     for stretch in &subject.along[seen.rod] {
-        let [from, to] =
-            [stretch.from, stretch.to].map(|s| (s / length).clamp(seen.from, seen.to));
+        let [from, to] = [stretch.from, stretch.to].map(|s| (s / length).clamp(seen.from, seen.to));
         if to <= from {
             continue;
         }
@@ -120,7 +119,6 @@ fn colored(
         piece(start, seen.to, seen.width - edge, scale_color(now));
     }
 }
-
 
 /// A sample of a rod that is seen from inside, for the key.
 pub(super) fn pale_sample(out: &mut impl Draw, [x, y]: Point) {

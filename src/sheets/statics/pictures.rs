@@ -1,7 +1,7 @@
 //! The pages with the frame in the colours of its stresses.
 
 use super::marks::{self, NAMED};
-use super::{Subject, legend, picture, share, three_digits};
+use super::{Subject, legend, picture};
 use crate::drawing::font::{LEADING, text_width, wrap};
 use crate::drawing::{Draw, Drawing, Item, Placement, Point, Rect, Weight};
 use crate::sheets::SheetError;
@@ -147,8 +147,8 @@ pub(super) fn hottest(subject: &Subject) -> Result<String, TextError> {
     let figures = &subject.figures[rod];
     settings.say(say::Hottest {
         rod: rod.to_string(),
-        stress: three_digits(figures.stress, format),
-        used: share(figures.utilisation, format),
+        stress: format.three_digits(figures.stress),
+        used: format.share(figures.utilisation),
         at: subject.place(rod),
         case: subject.case(figures.case),
     })

@@ -1,8 +1,8 @@
 //! The pages with the figures: what was taken, what came of it.
 
+use super::Subject;
 use super::marks::NAMED;
 use super::pictures::{hottest, size};
-use super::{Subject, share, small, three_digits};
 use crate::sheets::SheetError;
 use crate::sheets::page::{Column, Flow, Leaf, Table};
 use crate::sheets::text::TextError;
@@ -106,7 +106,7 @@ fn taken(subject: &Subject) -> Result<Table, TextError> {
     let taken = &question.taken;
     let material = &taken.material;
     let (feet, own) = (subject.study.model().feet.len(), subject.study.own_feet);
-    let figure = |x: f64| three_digits(x, format);
+    let figure = |x: f64| format.three_digits(x);
     let material = say::MaterialIs {
         name: material.name().unwrap_or_default().to_owned(),
         young: figure(material.young),
@@ -135,10 +135,7 @@ fn taken(subject: &Subject) -> Result<Table, TextError> {
     ];
     if question.pressure != 0.0 {
         let pressure = figure(question.pressure * 1000.0);
-        rows.push([
-            settings.say(say::AreaLoad {})?,
-            settings.say(say::AreaLoadIs { pressure })?,
-        ]);
+        rows.push([settings.say(say::AreaLoad {})?, settings.say(say::AreaLoadIs { pressure })?]);
     }
     for load in question.points.iter().take(NAMED) {
         let [x, y, z] = [load.force.x, load.force.y, load.force.z].map(figure);
@@ -169,12 +166,12 @@ fn cases(subject: &Subject) -> Result<Table, TextError> {
         let mut row = vec![
             subject.case(i),
             settings.say(say::Factors { weight, area, points })?,
-            three_digits(case.load.total(study.model()).norm(), format),
+            format.three_digits(case.load.total(study.model()).norm()),
         ];
         let (used, moved) = (used_in(i, case), moved_in(subject, i, case));
         for (largest, value) in [
-            (used, used.map(|l| share(l.value, format))),
-            (moved, moved.map(|l| small(l.value, format))),
+            (used, used.map(|l| format.share(l.value))),
+            (moved, moved.map(|l| format.small(l.value))),
         ] {
             row.push(value.unwrap_or_default());
             let place = largest.filter(|l| l.value > 0.0).map(|l| {
@@ -232,11 +229,11 @@ fn most_used(subject: &Subject) -> Result<Table, TextError> {
         let figures = &subject.figures[rod];
         vec![
             rod.to_string(),
-            share(figures.utilisation, format),
-            three_digits(figures.stress, format),
+            format.share(figures.utilisation),
+            format.three_digits(figures.stress),
             subject.place(rod),
             subject.case(figures.case),
-            small(figures.displacement, format),
+            format.small(figures.displacement),
         ]
     };
     Ok(Table {
@@ -270,7 +267,7 @@ fn tied(subject: &Subject, flow: &mut Flow) -> Result<(), SheetError> {
             id.to_string(),
             on(contact.over, contact.at_over)?,
             on(contact.under, contact.at_under)?,
-            three_digits(pull, format),
+            format.three_digits(pull),
         ])
     };
     let (first, rest) = subject.pulls.split_at(NAMED.min(subject.pulls.len()));
@@ -309,7 +306,7 @@ fn reactions(subject: &Subject) -> Result<Table, TextError> {
         feet.push((settings.say(say::AllFeet {})?, total));
         for (k, (foot, force)) in feet.into_iter().enumerate() {
             let figures = [force.x, force.y, force.z]
-                .map(|x| if x.abs() > slight { three_digits(x, format) } else { "0".into() });
+                .map(|x| if x.abs() > slight { format.three_digits(x) } else { "0".into() });
             let name = if k == 0 { subject.case(i) } else { String::new() };
             rows.push([vec![name, foot], figures.to_vec()].concat());
         }

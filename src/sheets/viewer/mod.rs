@@ -5,24 +5,28 @@
 //! positions come in mm to be drawn only.
 
 mod data;
+mod stress;
 mod words;
 
 #[cfg(test)]
 mod tests;
 
+pub use stress::with_stress;
 pub(in crate::sheets) use words::say;
 
 use super::{SheetError, SheetSettings};
 use crate::frame::Frame;
 use crate::shop::Assembly;
+use crate::statics::study::Study;
 
 const PAGE: &str = include_str!("../../../templates/viewer/viewer.html");
 const STYLE: &str = include_str!("../../../templates/viewer/viewer.css");
 /// The scripts in the order in which they build on one another.
-const SCRIPTS: [&str; 9] = [
+const SCRIPTS: [&str; 10] = [
     include_str!("../../../templates/viewer/dom.js"),
     include_str!("../../../templates/viewer/camera.js"),
     include_str!("../../../templates/viewer/gl.js"),
+    include_str!("../../../templates/viewer/stress.js"),
     include_str!("../../../templates/viewer/scene.js"),
     include_str!("../../../templates/viewer/pick.js"),
     include_str!("../../../templates/viewer/card.js"),
@@ -31,7 +35,7 @@ const SCRIPTS: [&str; 9] = [
     include_str!("../../../templates/viewer/main.js"),
 ];
 
-/// The page `viewer.html`; without an assembly it has no steps.
+/// The page `viewer.html`; without an assembly it has no steps, without a study no stresses.
 ///
 /// # Errors
 /// [`SheetError::Text`] when a text cannot be put together, [`SheetError::Data`] when a figure
@@ -39,16 +43,17 @@ const SCRIPTS: [&str; 9] = [
 pub fn viewer(
     frame: &Frame,
     assembly: Option<&Assembly>,
+    study: Option<&Study>,
     settings: &SheetSettings,
 ) -> Result<String, SheetError> {
     let data = data::data(frame, assembly, settings)?;
-    // A `</script>` in a name would end the data.
-    let data = serde_json::to_string(&data)?.replace("</", "<\\/");
+    let data = in_script(&serde_json::to_string(&data)?);
     let pieces = [
         ("language", escaped(settings.texts.language())),
         ("title", escaped(&settings.model)),
         ("style", STYLE.to_owned()),
         ("data", data),
+        ("stress", stress::stress_json(study, settings)?),
         ("script", SCRIPTS.concat()),
     ];
     Ok(joined(&pieces))
@@ -65,6 +70,11 @@ fn joined(pieces: &[(&str, String)]) -> String {
         }
     }
     page
+}
+
+/// JSON as it may stand in an element of the page: a `</script>` in a name would end it.
+fn in_script(json: &str) -> String {
+    json.replace("</", "<\\/")
 }
 
 /// Text as it may stand in HTML.

@@ -37,6 +37,9 @@ messages! {
         "mate" => Mate {}
         "angle" => Angle {}
         "lies" => Lies {}
+        "stress" => Stress {}
+        "stress-title" => StressTitle { stress: String, scale: String }
+        "rod-stress" => RodStress { stress: String, used: String, at: String, case: String }
         "diameter" => Diameter { diameter: String }
         "placed" => Placed { step: usize }
     }
@@ -57,6 +60,6 @@ pub(super) fn words(settings: &SheetSettings) -> Result<BTreeMap<&'static str, S
         "closer": Closer, "farther": Farther, "print": Print, "first": First,
         "back": Back, "forward": Forward, "all": All, "steps": Steps,
         "no-webgl": NoWebgl, "mark": MarkHead, "from-a": FromA, "mate": Mate,
-        "angle": Angle, "lies": Lies,
+        "angle": Angle, "lies": Lies, "stress": Stress,
     })
 }
