@@ -78,6 +78,34 @@ def check_steps(page, steps):
     assert page.locator("#step button.rod").count() == 0
 
 
+def check_stress(page, structure):
+    """Colours, bar and words of the stresses, where the statics ran; else no choice of them."""
+    choice = page.locator('#colors option[value="stress"]')
+    if not page.locator("script#stress").text_content():
+        assert choice.count() == 0, "a choice of stresses without any"
+        return
+    page.focus("#colors")
+    before = page.evaluate("sceneSticks().length")
+    # By the keyboard: it is the last choice.
+    page.keyboard.press("End")
+    assert page.locator("#colors").input_value() == "stress"
+    assert page.locator("#scale").is_visible() and page.locator("#bar span").count() > 0
+    assert page.evaluate("sceneSticks().length") > before, "rods of one colour only"
+    bar, stage = page.locator("#scale").bounding_box(), page.locator("#stage").bounding_box()
+    assert bar["x"] + bar["width"] < stage["x"] + stage["width"] and bar["y"] > stage["y"], bar
+    most = page.evaluate("Math.max(...stress.rods.flatMap((r) => r.along.filter((_, i) => i % 2)))")
+    assert most == page.evaluate("stress.colors.length") - 1, "no rod has the darkest colour"
+    hot = page.evaluate("stress.rods.findIndex((r) => r.along.some((v, i) => i % 2 && v === stress.colors.length - 1))")
+    for index in (0, hot, len(structure["rods"]) - 1):
+        rod = structure["rods"][index]
+        page.fill("#find", rod["id"])
+        text = page.locator("#card .stress").inner_text()
+        assert text == page.evaluate(f"stress.rods[{index}].text") and "MPa" in text, text
+        assert 0 <= page.evaluate(f"stress.rods[{index}].at") <= rod["length"] + 0.01
+    page.select_option("#colors", "plain")
+    assert page.locator("#scale").is_hidden()
+
+
 def check_print(page):
     page.fill("#find", "R012")
     pdf = page.pdf(format="A5")
@@ -180,6 +208,7 @@ def main():
                 check_search(page, structure)
                 check_steps(page, steps)
                 check_moves(page)
+                check_stress(page, structure)
                 pdf = check_print(page)
                 print(f"{len(structure['rods'])} rods: {frame_time(page):.1f} ms a picture")
             if (name, scheme) == ("phone", "light"):
@@ -193,6 +222,10 @@ def main():
                 page.click("#forward")
                 page.select_option("#colors", "sides")
                 page.screenshot(path=options.pictures / f"{name}-{scheme}-step.png")
+                if page.locator('#colors option[value="stress"]').count():
+                    page.click("#all")
+                    page.select_option("#colors", "stress")
+                    page.screenshot(path=options.pictures / f"{name}-{scheme}-stress.png")
             # What it draws for itself, such as the picture to print, is data and no request.
             requests = [url for url in requests if not url.startswith("data:")]
             assert requests == [address], requests

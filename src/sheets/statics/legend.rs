@@ -16,6 +16,8 @@ messages! {
 
 /// Height of the bar, mm.
 const BAR: f64 = 4.0;
+/// Room at its left for the first figure, mm.
+const LEFT: f64 = 2.0;
 /// Room at its right for words, mm.
 const WORDS: f64 = 30.0;
 /// Longest bar, mm.
@@ -33,16 +35,16 @@ pub(super) const LENGTH_HEIGHT: f64 = 6.0;
 /// MPa and in per cent of the strength.
 pub(super) fn bar(subject: &Subject, room: f64) -> Result<Vec<Item>, TextError> {
     let mut items = Vec::new();
-    let width = (room - WORDS).min(LONGEST);
+    let width = (room - LEFT - WORDS).min(LONGEST);
     let top = SMALL + 1.6;
     let strip = width / STRIPS as f64;
     for i in 0..STRIPS {
         let color = scale_color((i as f64 + 0.5) / STRIPS as f64);
         // A little wider than it is: no seams.
         let seam = if i + 1 < STRIPS { 0.05 } else { 0.0 };
-        items.rect([i as f64 * strip, top], [strip + seam, BAR], color);
+        items.rect([LEFT + i as f64 * strip, top], [strip + seam, BAR], color);
     }
-    items.rect([0.0, top], [width, BAR], Stroke::new(0.2));
+    items.rect([LEFT, top], [width, BAR], Stroke::new(0.2));
     let largest = subject.largest();
     let strength = subject.study.question.taken.material.strength;
     let format = subject.format();
@@ -51,18 +53,18 @@ pub(super) fn bar(subject: &Subject, room: f64) -> Result<Vec<Item>, TextError> 
         (100.0 * largest, top + BAR, 1.0, top + BAR + 1.2 + SMALL * 0.8),
     ] {
         for tick in ticks(end) {
-            let x = if end > 0.0 { tick / end * width } else { 0.0 };
+            let x = LEFT + if end > 0.0 { tick / end * width } else { 0.0 };
             items.line([x, y], [x, y + dy], Stroke::new(0.2));
             items.text([x, baseline], SMALL, tick_figure(tick, end, format)).middle();
         }
     }
-    let x = width + 4.0;
+    let x = LEFT + width + 4.0;
     items.text([x, top - 1.4], SMALL, subject.settings.say(say::BarStress {})?);
     let below = top + BAR + 1.2 + SMALL * 0.8;
     items.text([x, below], SMALL, subject.settings.say(say::BarUsed {})?);
     // All of the strength, where the bar reaches so far.
     if largest > 1.0 {
-        let x = width / largest;
+        let x = LEFT + width / largest;
         items.line([x, top - 1.0], [x, top + BAR + 1.0], Stroke::new(0.5).color(Color::BLACK));
     }
     Ok(items)
@@ -79,7 +81,7 @@ pub(in crate::sheets) fn ticks(end: f64) -> Vec<f64> {
 }
 
 /// With the decimals of the step between ticks.
-fn tick_figure(tick: f64, end: f64, format: crate::sheets::Format) -> String {
+pub(in crate::sheets) fn tick_figure(tick: f64, end: f64, format: crate::sheets::Format) -> String {
     if end <= 0.0 {
         return format.three_digits(0.0);
     }

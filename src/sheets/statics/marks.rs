@@ -17,13 +17,24 @@ pub(super) const ARROW: f64 = 11.0;
 pub(super) const ARROW_HEAD: f64 = 2.4;
 /// An arrow that the view shortens to less than this part is drawn as seen from an end.
 const END_ON: f64 = 0.15;
-/// Half the width of the sign of a foot, mm.
+/// Half the width of the sign of a foot, mm; smaller where there are many.
 pub(super) const FOOT: f64 = 1.1;
+const SMALL_FOOT: f64 = 0.6;
+const MANY_FEET: usize = 60;
 /// Pens of rings and arrows: no colours of the scale.
 pub(super) const RING_PEN: Stroke = Stroke::new(0.45).color(Color::BLUE);
 pub(super) const LOAD_PEN: Stroke = Stroke::new(0.45);
 
-/// Marks all of it on a picture that was drawn with this layout in this room.
+/// Draws the signs of the feet, to lie below the rods: those behind the frame would cover it.
+pub(super) fn feet(subject: &Subject, view: &View, layout: &Layout, out: &mut impl Draw) {
+    let (model, own) = (subject.study.model(), subject.study.own_feet);
+    let half = if model.feet.len() > MANY_FEET { SMALL_FOOT } else { FOOT };
+    for (i, foot) in model.feet.iter().enumerate() {
+        foot_sign(out, layout.place(view.project(&model.nodes[foot.node])), half, i >= own);
+    }
+}
+
+/// Marks the rest on a picture that was drawn with this layout in this room.
 pub(super) fn draw(
     subject: &Subject,
     view: &View,
@@ -34,9 +45,6 @@ pub(super) fn draw(
     let place = |p: &Point3| layout.place(view.project(p));
     let mut labels = Labels::new(room);
     let study = subject.study;
-    for (i, foot) in study.model().feet.iter().enumerate() {
-        foot_sign(out, place(&study.model().nodes[foot.node]), i >= study.own_feet);
-    }
     let rings: Vec<(Point, String)> = subject
         .pulls
         .iter()
@@ -67,10 +75,10 @@ fn load_point(subject: &Subject, load: &PointLoad) -> Point3 {
 }
 
 /// The sign of a foot: filled, or open where it was added.
-pub(super) fn foot_sign(out: &mut impl Draw, [x, y]: Point, added: bool) {
-    let ends = [[x, y - FOOT], [x + FOOT, y + FOOT], [x - FOOT, y + FOOT]];
+pub(super) fn foot_sign(out: &mut impl Draw, [x, y]: Point, half: f64, added: bool) {
+    let ends = [[x, y - half], [x + half, y + half], [x - half, y + half]];
     let fill = if added { Color::WHITE } else { Color::BLACK };
-    out.polygon(ends, Stroke::new(0.25).fill(fill));
+    out.polygon(ends, Stroke::new(0.2).fill(fill));
 }
 
 /// Half the width of the sign of the most stressed place, mm.

@@ -9,7 +9,7 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
-pub(super) use legend::{say as say_legend, ticks};
+pub(super) use legend::{say as say_legend, tick_figure, ticks};
 pub(super) use pictures::say;
 pub(super) use tables::say as say_tables;
 

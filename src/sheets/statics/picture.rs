@@ -1,8 +1,8 @@
 //! The rods of a frame in the colours of their stresses, those behind others broken off.
 
 use super::Subject;
-use crate::drawing::{Color, Draw, Point, Rect, Stroke, scale_color};
-use crate::ids::RodId;
+use crate::drawing::{Color, Draw, Point, Stroke, scale_color};
+use crate::ids::{Id, RodId};
 use crate::sheets::band::rounded;
 use crate::sheets::line_picture::{Line, hide};
 use crate::sheets::view::{Layout, View};
@@ -29,10 +29,9 @@ const INSIDE: f64 = -0.15;
 /// What is left of the colour of such a rod.
 const PALE: f64 = 0.3;
 
-/// Draws the rods as large as a round scale lets them in `room`; returns how they lie.
-pub(super) fn draw(subject: &Subject, view: &View, room: Rect, out: &mut impl Draw) -> Layout {
+/// Draws the rods as they lie on paper.
+pub(super) fn draw(subject: &Subject, view: &View, layout: &Layout, out: &mut impl Draw) {
     let frame = &subject.frame;
-    let layout = view.layout(frame, room);
     let least = if frame.rods.len() > MANY_RODS { FINE } else { THINNEST };
     let line = |rod: &crate::frame::Rod| {
         let ends = [rod.axis.a, rod.axis.b];
@@ -60,9 +59,8 @@ pub(super) fn draw(subject: &Subject, view: &View, room: Rect, out: &mut impl Dr
     let largest = subject.largest();
     for stretch in seen {
         let pale = is_inside(subject, view, stretch.rod);
-        colored(subject, &lines[crate::ids::Id::index(stretch.rod)], &stretch, pale, largest, out);
+        colored(subject, &lines[stretch.rod.index()], &stretch, pale, largest, out);
     }
-    layout
 }
 
 /// A visible stretch of a rod, as shares of it.

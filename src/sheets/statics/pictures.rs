@@ -74,13 +74,14 @@ fn page(
     let mut drawing = Drawing::new(width, height);
     let words = Words::new(subject, area.width(), aside)?;
     let room = Rect { max: [area.max[0], area.max[1] - words.height - GAP], ..area };
-    let rods = drawing.layer("rods");
     let mut inner = room.inset(RIM);
     if aside && !subject.study.question.points.is_empty() {
         // Arrows of loads stand on the topmost rods.
         inner.min[1] += marks::ARROW;
     }
-    let layout = picture::draw(subject, view, inner, rods);
+    let layout = view.layout(&subject.frame, inner);
+    marks::feet(subject, view, &layout, drawing.layer("feet"));
+    picture::draw(subject, view, &layout, drawing.layer("rods"));
     marks::draw(subject, view, &layout, room, drawing.layer("marks"))?;
     let n = layout.n;
     words.draw(subject, n, [area.min[0], room.max[1] + GAP], drawing.layer("legend"));
@@ -190,7 +191,7 @@ impl Sign {
     fn draw(self, out: &mut impl Draw, [x, y]: Point) {
         match self {
             Self::Hottest => marks::hottest_sign(out, [x, y]),
-            Self::Foot { added } => marks::foot_sign(out, [x, y], added),
+            Self::Foot { added } => marks::foot_sign(out, [x, y], marks::FOOT, added),
             Self::Load => out.arrow([x, y - 1.9], [x, y + 1.9], marks::ARROW_HEAD, marks::LOAD_PEN),
             Self::Pull => out.circle([x, y], marks::RING, marks::RING_PEN),
             Self::Pale => picture::pale_sample(out, [x, y]),

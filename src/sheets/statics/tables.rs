@@ -64,8 +64,8 @@ messages! {
 
 /// Rods in the table of the most used.
 const MOST_USED: usize = 10;
-/// As many contacts that pull are named below those in the table; a page of them.
-const LISTED: usize = 400;
+/// As many contacts that pull are named below those in the table.
+const LISTED: usize = 150;
 /// Feet that are listed of a case, those that bear most.
 const FEET: usize = 12;
 /// Room kept below a heading, mm.

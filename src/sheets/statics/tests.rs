@@ -8,9 +8,13 @@ use crate::sheets::tests::{faults, settings, texts};
 use crate::sheets::view::View;
 use crate::sheets::viewer::viewer;
 use crate::sheets::{Language, Paper, PaperUnits, Texts};
+use crate::shop::{OrderSettings, assembly, classes};
 use crate::statics::fixture::{question, studied};
 use crate::statics::study::{Question, study};
-use crate::write::structure::read_structure;
+use crate::write::assembly::assembly_json;
+use crate::write::glb::glb;
+use crate::write::structure::{Structure, read_structure};
+use crate::write::tables;
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -76,7 +80,8 @@ fn the_most_stressed_place_is_darkest() {
     let subject = Subject::new(&frame, &study, settings(Paper::A4, PaperUnits::Mm));
     let mut items: Vec<Item> = Vec::new();
     let room = Rect::new([0.0, 0.0], [200.0, 200.0]);
-    let layout = picture::draw(&subject, &View::plan(), room, &mut items);
+    let layout = View::plan().layout(&subject.frame, room);
+    picture::draw(&subject, &View::plan(), &layout, &mut items);
     let color = |c: Color| {
         items.iter().filter_map(move |item| match item {
             Item::Figure(Figure { shape: Shape::Line(a, b), paint }) => {
@@ -126,17 +131,19 @@ fn what_breaks_is_said() {
     assert!(said(&sheets).contains(&format!("{broken} rods are stressed beyond their strength")));
 }
 
-/// Writes the pages and the viewer of a frame in all papers, to be looked at:
+/// Writes pages, viewer and model of a frame for all papers, as output folders to be looked at:
 /// `STRUCTURE=OUT/structure.json LOOK=FOLDER cargo nextest run --run-ignored only to_be_looked_at`.
 #[test]
 #[ignore = "writes files to be looked at"]
 fn pages_to_be_looked_at() {
     let folder = std::env::var("LOOK").unwrap();
-    let folder = Path::new(&folder);
     let frame = match std::env::var("STRUCTURE") {
         Ok(path) => read_structure(Path::new(&path)).unwrap().to_frame().unwrap(),
         Err(_) => IGLOO.clone(),
     };
+    let order =
+        (frame.rods.len() < 1000).then(|| assembly(&frame, &[], OrderSettings::default()).unwrap());
+    let structure = Structure::from_frame(&frame, &classes(&frame), &[]);
     for (name, paper, units, language, scale) in [
         ("a4", Paper::A4, PaperUnits::Mm, Language::En, 1.0),
         ("letter", Paper::Letter, PaperUnits::Inch, Language::En, 1.0),
@@ -146,16 +153,22 @@ fn pages_to_be_looked_at() {
         let texts = Texts::built_in(language).unwrap();
         let settings = SheetSettings { texts, ..settings(paper, units) };
         let sheets = statics_sheets(&frame, &study, &settings).unwrap();
-        let into = folder.join(name);
-        std::fs::create_dir_all(&into).unwrap();
+        let into = Path::new(&folder).join(name);
+        std::fs::create_dir_all(into.join("statics")).unwrap();
+        let write = |name: &str, bytes: &[u8]| std::fs::write(into.join(name), bytes).unwrap();
         for sheet in &sheets {
-            let path = into.join(format!("{}.svg", sheet.stem));
-            std::fs::write(path, svg::render(&sheet.page.drawing).unwrap()).unwrap();
+            let picture = svg::render(&sheet.page.drawing).unwrap();
+            write(&format!("statics/{}.svg", sheet.stem), picture.as_bytes());
         }
         let pages: Vec<_> = sheets.into_iter().map(|sheet| sheet.page).collect();
-        let pdf = render(&pages, &DocumentInfo::default()).unwrap();
-        std::fs::write(into.join("statics.pdf"), pdf).unwrap();
-        let page = viewer(&frame, None, Some(&study), &settings).unwrap();
-        std::fs::write(into.join("viewer.html"), page).unwrap();
+        write("statics.pdf", &render(&pages, &DocumentInfo::default()).unwrap());
+        let page = viewer(&frame, order.as_ref(), Some(&study), &settings).unwrap();
+        write("viewer.html", page.as_bytes());
+        write("model.glb", &glb(&structure, Some(&study)).unwrap());
+        write("rods.csv", &tables::rods(&frame, &classes(&frame), Some(&study)).unwrap());
+        write("structure.json", structure.to_json().unwrap().as_bytes());
+        if let Some(order) = &order {
+            write("assembly.json", assembly_json(order).unwrap().as_bytes());
+        }
     }
 }

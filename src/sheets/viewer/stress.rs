@@ -5,7 +5,7 @@
 use super::say;
 use crate::drawing::scale_color;
 use crate::ids::{IdVec, RodId};
-use crate::sheets::statics::ticks;
+use crate::sheets::statics::{tick_figure, ticks};
 use crate::sheets::text::TextError;
 use crate::sheets::{SheetError, SheetSettings, page};
 use crate::statics::along::{RodFigures, Stretch, along, most_used, rod_figures, share};
@@ -55,7 +55,7 @@ fn data(study: &Study, settings: &SheetSettings) -> Result<StressData, TextError
     let taken = &study.question.taken;
     let tick = |used: f64| {
         let at = if largest > 0.0 { used / (100.0 * largest) } else { 0.0 };
-        (rounded(at, 1e4), format.three_digits(used))
+        (rounded(at, 1e4), tick_figure(used, 100.0 * largest, format))
     };
     let title = say::StressTitle {
         stress: format.three_digits(largest * taken.material.strength),
