@@ -166,6 +166,8 @@ fn pages_to_be_looked_at() {
         write("viewer.html", page.as_bytes());
         write("model.glb", &glb(&structure, Some(&study)).unwrap());
         write("rods.csv", &tables::rods(&frame, &classes(&frame), Some(&study)).unwrap());
+        write("plain.glb", &glb(&structure, None).unwrap());
+        write("plain.csv", &tables::rods(&frame, &classes(&frame), None).unwrap());
         write("structure.json", structure.to_json().unwrap().as_bytes());
         if let Some(order) = &order {
             write("assembly.json", assembly_json(order).unwrap().as_bytes());
