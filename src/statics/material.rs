@@ -1,5 +1,7 @@
 //! What rods are made of. Forces in N, lengths in mm, stresses in MPa, densities in kg/m³.
 
+use crate::units::GRAVITY;
+
 /// A straight-grained or even material of a rod: elastic, the same along its whole length.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Material {
@@ -14,9 +16,6 @@ pub struct Material {
     /// Bending strength, MPa.
     pub strength: f64,
 }
-
-/// Standard gravity, m/s².
-pub const GRAVITY: f64 = 9.80665;
 
 impl Material {
     /// Weight of a volume, N/mm³.

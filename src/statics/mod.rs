@@ -16,3 +16,4 @@ pub mod study;
 mod system;
 #[cfg(test)]
 mod tests;
+pub mod wish;

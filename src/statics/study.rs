@@ -39,6 +39,8 @@ pub struct Combination {
 pub struct Question {
     /// What the frame is taken for.
     pub taken: Assumptions,
+    /// What its material is called.
+    pub material: String,
     /// Forces on rods.
     pub points: Vec<PointLoad>,
     /// Vertical load on the area in plan, MPa.
@@ -159,7 +161,7 @@ impl Study {
                 let RodPeak { rod, at, utilisation, .. } = solved.rods[i];
                 Largest { case, rod, at, value: utilisation }
             };
-            self.cases.iter().enumerate().map(of).reduce(larger)
+            self.cases.iter().enumerate().map(of).reduce(Largest::larger)
         };
         (0..rods).filter_map(worst).collect()
     }
@@ -174,7 +176,7 @@ impl Study {
                     Largest { case, rod, at, value }
                 })
             });
-            places.reduce(larger)
+            places.reduce(Largest::larger)
         };
         self.framework.rods.enumerate().filter_map(of).collect()
     }
@@ -199,8 +201,11 @@ impl Study {
 /// See [`Study::slight`].
 const SLIGHT: f64 = 1e-9;
 
-fn larger(a: Largest, b: Largest) -> Largest {
-    if b.value > a.value { b } else { a }
+impl Largest {
+    /// The larger of two; of two alike the first.
+    pub fn larger(self, other: Self) -> Self {
+        if other.value > self.value { other } else { self }
+    }
 }
 
 impl Case {
