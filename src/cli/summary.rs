@@ -1,5 +1,6 @@
 //! The summary at the end of a run, for the builder.
 
+use super::statics_page;
 use super::terminal::Terminal;
 use crate::design::Design;
 use crate::frame::Frame;
@@ -49,6 +50,7 @@ pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) 
         ("left out", left_out(model)),
     ]);
     rows.extend(model.assembly.as_ref().map(|assembly| ("assembly", put_together(assembly))));
+    rows.extend(model.statics.iter().flatten().map(|study| ("statics", statics_page::line(study))));
     rows.extend(model.as_built.as_ref().map(|what| ("as built", as_built(what))));
     rows.extend(model.misfit.as_ref().map(|misfit| ("tolerance", tolerance(misfit))));
     rows.extend(model.jigs.as_ref().map(|jigs| ("for the laser", lasered(jigs))));

@@ -1,7 +1,7 @@
 //! The settings as given, on the command line or in design.toml.
 
 use super::stock::{OffcutItem, StockItem};
-use super::{DesignError, Part, RodSetting, ToleranceSetting};
+use super::{DesignError, Part, RodSetting, StaticsSettings, ToleranceSetting};
 use crate::chart::Method;
 use crate::frame::close::Way;
 use crate::frame::layer::Layering;
@@ -224,6 +224,15 @@ pub struct Settings {
     #[arg(long, value_name = "N")]
     pub seed: Option<u32>,
 
+    /// Study under which stresses the frame stands; any of the options of statics does so, too
+    #[arg(long = "statics")]
+    #[serde(skip)]
+    pub study: bool,
+
+    /// What is asked of its statics.
+    #[command(flatten)]
+    pub statics: Option<StaticsSettings>,
+
     /// Write only these besides structure and report [default: all]
     #[arg(long, value_name = "PARTS", value_delimiter = ',', num_args = 1, value_enum)]
     pub only: Option<Vec<Part>>,
@@ -298,6 +307,11 @@ impl Settings {
             as_built: self.as_built.or(other.as_built),
             tolerance: self.tolerance.or(other.tolerance),
             seed: self.seed.or(other.seed),
+            study: self.study || other.study,
+            statics: match (self.statics, other.statics) {
+                (Some(own), Some(other)) => Some(own.or(other)),
+                (own, other) => own.or(other),
+            },
             only: self.only.or(other.only),
         }
     }

@@ -24,6 +24,8 @@ use crate::pattern::{Pattern, Shape};
 use crate::shop::lengths::sticks;
 use crate::shop::saw::{CutPlan, Offer, plan_some};
 use crate::shop::{Assembly, JigError, Jigs, assembly, jigs};
+use crate::statics::solve::StaticsError;
+use crate::statics::study::{Study, study};
 use crate::surface::prepare::{Prepared, prepare, prepare_polygons};
 use crate::surface::read::{read, read_polygons};
 use crate::surface::topology::require_chartable;
@@ -54,6 +56,8 @@ pub struct Model {
     pub misfit: Option<Misfit>,
     /// The sawing plan; without sticks that are sawn.
     pub plan: CutPlan,
+    /// Its stresses, or why it does not stand, if that was asked for.
+    pub statics: Option<Result<Study, StaticsError>>,
     /// In which order it is put together; of models that are only tried, none.
     pub assembly: Option<Assembly>,
     /// What a laser cuts for it, or why that is left out; of models for which it is not
@@ -84,6 +88,8 @@ pub enum Step {
     Saw,
     /// Finding the order in which it is put together.
     Order,
+    /// Finding its stresses.
+    Statics,
     /// Laying out what a laser cuts.
     Jigs,
     /// Drawing and encoding the documents.
@@ -105,6 +111,11 @@ pub fn build(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, Buil
         begin(Step::Tolerance);
         let frame = &model.formed.frame;
         model.misfit = misfit(frame, tolerance, design.seed).map_err(BuildError::Tolerance)?;
+    }
+    if let Some(wish) = &design.statics {
+        begin(Step::Statics);
+        let frame = &model.formed.frame;
+        model.statics = Some(study(frame, wish.about(frame)?));
     }
     begin(Step::Order);
     let tied = arrangement(&model.formed).tied;
@@ -339,6 +350,7 @@ fn finish(
         as_built: None,
         misfit: None,
         plan,
+        statics: None,
         assembly: None,
         jigs: None,
     })

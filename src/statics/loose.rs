@@ -6,6 +6,7 @@
 
 use super::joint;
 use super::model::Model;
+use super::start::start;
 use super::system::{System, add_to, both};
 use crate::ids::{Id, RodId};
 use crate::linalg::LinalgError;
@@ -97,10 +98,8 @@ fn diagonal(system: &System) -> Vec<f64> {
 /// The mode of least stiffness that inverse iteration finds with the system as it is
 /// factored; of unit length by D.
 fn lowest_mode(diagonal: &[f64], system: &mut System) -> Vec<f64> {
-    // Uneven and the same every time: fractions of multiples of the golden ratio.
-    let start = |i: usize| (0.618_033_988_749_895 * (i + 1) as f64).fract() - 0.5;
-    let mut mode: Vec<f64> =
-        diagonal.iter().enumerate().map(|(i, d)| start(i) / d.sqrt()).collect();
+    let mut mode = start(diagonal.len());
+    mode.iter_mut().zip(diagonal).for_each(|(x, d)| *x /= d.sqrt());
     for _ in 0..STEPS {
         mode.iter_mut().zip(diagonal).for_each(|(x, d)| *x *= d);
         system.solve(&mut mode);

@@ -17,6 +17,13 @@ pub struct Material {
     pub strength: f64,
 }
 
+impl Default for Material {
+    /// Pine.
+    fn default() -> Self {
+        TABLE[0].1
+    }
+}
+
 impl Material {
     /// Weight of a volume, N/mm³.
     pub fn weight(&self) -> f64 {

@@ -3,6 +3,7 @@
 
 pub mod beam;
 pub mod framework;
+pub mod freedom;
 pub mod joint;
 pub mod load;
 pub mod loose;
@@ -11,6 +12,7 @@ mod meshes;
 pub mod model;
 pub mod section;
 pub mod solve;
+mod start;
 pub mod stress;
 pub mod study;
 mod system;

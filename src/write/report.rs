@@ -16,6 +16,7 @@ use crate::frame::tolerance::{Misfit, TRIALS, UnitOff};
 use crate::ids::RodId;
 use crate::shop::saw::{Aim, CutPlan};
 use crate::shop::{Assembly, JigError, Jigs};
+use crate::write::statics::StaticsFigures;
 use serde::Serialize;
 
 /// The report of a run.
@@ -48,6 +49,9 @@ pub struct Report {
     /// What errors of marks and diameters do, if that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<Tolerances>,
+    /// Its stresses, or why it does not stand, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub statics: Option<StaticsFigures>,
     /// What a laser cuts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub jigs: Option<JigFigures>,

@@ -1,0 +1,64 @@
+//! `rodwright statics`: stresses in a finished frame under other loads.
+
+use super::input::Input;
+use super::statics_page::page;
+use super::terminal::{Terminal, print};
+use super::{Failure, design_failure, folder_failure};
+use crate::design::{Design, Folders, Settings, StaticsSettings};
+use crate::documents;
+use crate::statics::study::study;
+use crate::write::folder::OutputFolder;
+use std::path::{Path, PathBuf};
+
+#[derive(clap::Args)]
+pub struct Args {
+    /// A folder written by rodwright: what its design says of statics holds where nothing else
+    /// is given here
+    #[arg(value_name = "OUT")]
+    folder: PathBuf,
+
+    #[command(flatten)]
+    settings: StaticsSettings,
+
+    /// Print statics.json instead of the summary
+    #[arg(long)]
+    json: bool,
+
+    /// Say nothing but errors
+    #[arg(short, long, conflicts_with = "json")]
+    quiet: bool,
+}
+
+pub fn run(args: Args, terminal: &Terminal) -> Result<(), Failure> {
+    let Input::Structure(structure) = Input::read(&args.folder)? else {
+        return Err(Failure::input(format!(
+            "{} is a surface: build a frame on it first, with `rodwright build`",
+            args.folder.display()
+        )));
+    };
+    let frame = structure.to_frame().map_err(Failure::input)?;
+    let mut folder = OutputFolder::open(&args.folder).map_err(folder_failure)?;
+    let design = design(&args.folder)?;
+    let given = args.settings.or(design.statics_as_given());
+    let wish = given.resolve(None).map_err(Failure::input)?;
+    let question = wish.about(&frame).map_err(Failure::input)?;
+    let study = study(&frame, question).map_err(Failure::input)?;
+    for (name, bytes) in documents::statics_files(&design, &study).map_err(Failure::input)? {
+        folder.replace(name, bytes).map_err(folder_failure)?;
+    }
+    let json = folder.file("statics.json").map(<[u8]>::to_vec);
+    folder.commit().map_err(folder_failure)?;
+    match json {
+        Some(json) if args.json => print(&json),
+        _ if args.quiet => Ok(()),
+        _ => print(page(&study, &args.folder, terminal).as_bytes()),
+    }
+}
+
+/// The design that a folder was made by.
+fn design(folder: &Path) -> Result<Design, Failure> {
+    let settings = Settings::read(&folder.join("design.toml")).map_err(design_failure)?;
+    let here = Some(folder);
+    let folders = Folders { surface: here, pattern: here, as_built: here, templates: here };
+    settings.resolve(folders).map_err(design_failure)
+}

@@ -1,0 +1,3 @@
+//! The statics of samples, by the program.
+
+use super::run::{build_sample, rodwright};
