@@ -4,7 +4,7 @@ use crate::design::{Design, Part};
 use crate::drawing::pdf::{self, DocumentInfo, Page};
 use crate::drawing::{Drawing, DrawingError, dxf, svg};
 use crate::frame::arrangement::arrangement;
-use crate::pipeline::Model;
+use crate::pipeline::{Model, Stiffened, Tried};
 use crate::sheets::labels::labels;
 use crate::sheets::viewer::viewer;
 use crate::sheets::{Document, LaserProfile, TextError, document_title, handout, jigs, notes};
@@ -19,7 +19,7 @@ use crate::write::assembly::assembly_json;
 use crate::write::cutlist::{cutlist_csv, cutlist_json};
 use crate::write::glb::{GlbError, assembly_glb, glb};
 use crate::write::report::{self, Report};
-use crate::write::statics::{statics_figures, statics_json};
+use crate::write::statics::{StiffenedFigures, TriedFigures, statics_figures, statics_json};
 use crate::write::structure::{Structure, StructureFault};
 use crate::write::tables::{self, TableError};
 use thiserror::Error;
@@ -141,10 +141,24 @@ fn report(design: &Design, model: &Model) -> Report {
         shared_lengths: model.formed.shared.as_ref().map(report::shared),
         as_built: model.as_built.as_ref().map(report::as_built),
         tolerance: model.misfit.as_ref().map(report::tolerance),
+        stiffened: model.stiffened.map(stiffened_figures),
         statics: model.statics.as_ref().map(statics_figures),
         jigs: model.jigs.as_ref().map(report::jigs),
         dropped: report::dropped(&model.formed.frame),
     }
+}
+
+/// What `report.json` says of a frame that was stiffened.
+fn stiffened_figures(stiffened: Stiffened) -> StiffenedFigures {
+    let Stiffened { goal, before, after, tried } = stiffened;
+    let figures = |Tried { turn, slide, edge, rods, value }| TriedFigures {
+        turn: turn.to_degrees(),
+        slide,
+        edge,
+        rods,
+        value,
+    };
+    StiffenedFigures { goal, before: figures(before), after: figures(after), tried }
 }
 
 fn add_sheets(design: &Design, model: &Model, files: &mut Files) -> Result<(), DocumentError> {
@@ -221,6 +235,7 @@ fn sheet_settings(design: &Design, model: &Model) -> Result<SheetSettings, TextE
         paper: design.paper,
         units: design.units,
         density: design.density,
+        sawn: model.as_built.iter().flat_map(|what| what.sawn.iter().copied()).collect(),
         notes: Vec::new(),
         texts: design.texts.clone(),
     };

@@ -39,7 +39,14 @@ pub fn run(args: Args, terminal: &Terminal) -> Result<(), Failure> {
     let frame = structure.to_frame().map_err(Failure::input)?;
     let mut folder = OutputFolder::open(&args.folder).map_err(folder_failure)?;
     let design = design(&args.folder)?;
-    let given = args.settings.or(design.statics_as_given());
+    let built = design.statics_as_given();
+    if design.stiffen.is_some() && args.settings.loads.is_none() && built.loads.is_some() {
+        return Err(Failure::usage(
+            "the loads of design.toml name rods of the frame as it was before it was made stiffer: \
+             say with --load where they act now",
+        ));
+    }
+    let given = args.settings.or(built);
     let wish = given.resolve(None).map_err(Failure::input)?;
     let question = wish.about(&frame).map_err(Failure::input)?;
     let study = study(&frame, question).map_err(Failure::input)?;

@@ -129,7 +129,7 @@ fn tied(study: &Study) -> String {
 const NAMED: usize = 8;
 
 /// Three significant digits, and no more zeros than need be.
-fn digits(x: f64) -> String {
+pub fn digits(x: f64) -> String {
     if x == 0.0 {
         return "0".into();
     }

@@ -45,6 +45,9 @@ impl Design {
             file.set("tolerance", toml::Table::from_iter(table));
             file.set("seed", i64::from(self.seed));
         }
+        if let Some(goal) = self.stiffen {
+            file.set("stiffen", choice(goal));
+        }
         if let Some(only) = &self.given.only {
             file.set("only", choice(only));
         }

@@ -33,6 +33,7 @@ use crate::sheets::labels::LabelSettings;
 use crate::sheets::{Language, LaserProfile, Paper, PaperUnits, TextError, Texts};
 use crate::shop::laser::Material;
 use crate::shop::{JigSettings, OrderSettings, Stock};
+use crate::statics::goal::Goal;
 use crate::statics::wish::Wish;
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
@@ -222,6 +223,8 @@ pub struct Design {
     pub seed: u32,
     /// What is asked of the statics, if they are.
     pub statics: Option<Wish>,
+    /// What turn, slide and tile edge are changed for, if they are.
+    pub stiffen: Option<Goal>,
     /// What to write.
     pub only: Vec<Part>,
     given: Settings,

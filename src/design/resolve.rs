@@ -95,6 +95,7 @@ impl Settings {
             tolerance: self.tolerance()?,
             seed: self.seed.unwrap_or(DEFAULT_SEED),
             statics: self.studied()?,
+            stiffen: self.stiffen,
             only: self.only.clone().unwrap_or_else(|| ALL_PARTS.to_vec()),
             given: self,
         })
@@ -171,8 +172,12 @@ impl Settings {
     /// What is asked of the statics, if they are.
     fn studied(&self) -> Result<Option<Wish>, DesignError> {
         let named = self.only.iter().flatten().any(|&part| part == Part::Statics);
-        if !self.study && !named && self.statics.is_none() {
+        if !self.study && !named && self.statics.is_none() && self.stiffen.is_none() {
             return Ok(None);
+        }
+        if self.stiffen.is_some() && self.as_built.is_some() {
+            let why = "the sticks are sawn already";
+            return Err(DesignError::Idle { key: "stiffen", why });
         }
         let settings = self.statics.clone().unwrap_or_default();
         settings.resolve(self.density).map(Some)

@@ -10,6 +10,7 @@ use crate::sheets::labels::LabelMedium;
 use crate::sheets::{Language, LaserProfile, Paper, PaperUnits};
 use crate::shop::laser::Material;
 use crate::shop::{Jig, Order};
+use crate::statics::goal::Goal;
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
 use crate::surface::up::Up;
@@ -229,6 +230,11 @@ pub struct Settings {
     #[serde(skip)]
     pub study: bool,
 
+    /// Change turn, slide and tile edge so that the largest stress or displacement becomes small
+    /// under the loads given
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub stiffen: Option<Goal>,
+
     /// What is asked of its statics.
     #[command(flatten)]
     pub statics: Option<StaticsSettings>,
@@ -308,6 +314,7 @@ impl Settings {
             tolerance: self.tolerance.or(other.tolerance),
             seed: self.seed.or(other.seed),
             study: self.study || other.study,
+            stiffen: self.stiffen.or(other.stiffen),
             statics: match (self.statics, other.statics) {
                 (Some(own), Some(other)) => Some(own.or(other)),
                 (own, other) => own.or(other),

@@ -35,7 +35,7 @@ use std::str::FromStr;
 pub struct StaticsSettings {
     /// What the rods are made of: pine, bamboo, birch, paper (the wood of the paper) or steel;
     /// figures of your own in a design file [default: pine]
-    #[arg(long = "rod-material", value_name = "NAME")]
+    #[arg(id = "rod_material", long = "rod-material", value_name = "NAME")]
     pub material: Option<MaterialSetting>,
 
     /// How the rods of a contact hold each other [default: tied]
@@ -59,7 +59,7 @@ pub struct StaticsSettings {
 
     /// Study the frame at another size: its longest horizontal side, diameters alike [default:
     /// as it is built]
-    #[arg(long = "statics-span", value_name = "LENGTH")]
+    #[arg(id = "statics_span", long = "statics-span", value_name = "LENGTH")]
     pub span: Option<Length>,
 
     /// Loads that act together, with their factors, as in "1.35 weight + 1.5 snow"; repeat it
@@ -298,7 +298,7 @@ impl fmt::Display for LoadSetting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let WishedLoad { on, force } = self.0;
         match on {
-            Target::Top => f.write_str("top")?,
+            Target::Top | Target::Near(_) => f.write_str("top")?,
             Target::Rod(rod, _) => write!(f, "{rod}")?,
         }
         let share = |way: &[f64; 3]| force.dot(&Vector3::from(*way));

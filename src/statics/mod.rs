@@ -4,6 +4,7 @@
 pub mod beam;
 pub mod framework;
 pub mod freedom;
+pub mod goal;
 pub mod joint;
 pub mod load;
 pub mod loose;

@@ -5,9 +5,9 @@ use super::framework::{Assumptions, Feet};
 use super::joint::Hold;
 use super::material::Material;
 use super::study::{Combination, PointLoad, Question};
-use crate::frame::Frame;
+use crate::frame::{Frame, Rod};
 use crate::ids::{Id, RodId};
-use crate::surface::Vector3;
+use crate::surface::{Point3, Vector3};
 use thiserror::Error;
 
 /// What is asked, of whatever frame.
@@ -49,6 +49,8 @@ pub enum Target {
     Rod(RodId, Option<f64>),
     /// At the highest contact.
     Top,
+    /// On the rod that comes nearest to a point, and there.
+    Near(Point3),
 }
 
 /// Why a load cannot act.
@@ -99,10 +101,41 @@ impl Wish {
     }
 }
 
+impl Wish {
+    /// The same, with loads on rods of this frame held at their places, whatever rods other
+    /// frames have there.
+    ///
+    /// # Errors
+    /// [`LoadError`] when a load acts on no rod.
+    pub fn in_places(&self, frame: &Frame) -> Result<Self, LoadError> {
+        let in_place = |load: &WishedLoad| match load.on {
+            Target::Rod(..) => {
+                let (rod, at) = place(frame, load.on)?;
+                Ok(WishedLoad { on: Target::Near(frame.rods[rod].axis.at(at)), ..*load })
+            }
+            Target::Top | Target::Near(_) => Ok(*load),
+        };
+        let loads = self.loads.iter().map(in_place).collect::<Result<_, _>>()?;
+        Ok(Self { loads, ..self.clone() })
+    }
+}
+
+/// The rod and the distance from its end A that come nearest to a point.
+fn nearest(frame: &Frame, point: Point3) -> (RodId, Option<f64>) {
+    let foot = |(id, rod): (RodId, &Rod)| {
+        let (axis, length) = (&rod.axis, rod.axis.length());
+        let at = (point - axis.a).dot(&axis.direction()).clamp(0.0, length);
+        ((point - axis.at(at)).norm(), id, at)
+    };
+    let nearest = frame.rods.enumerate().map(foot).reduce(|a, b| if b.0 < a.0 { b } else { a });
+    nearest.map_or((RodId::new(0), None), |(_, id, at)| (id, Some(at)))
+}
+
 /// The rod and the distance from its end A at which a load acts.
 fn place(frame: &Frame, on: Target) -> Result<(RodId, f64), LoadError> {
     let (rod, at) = match on {
         Target::Rod(rod, at) => (rod, at),
+        Target::Near(point) => nearest(frame, point),
         Target::Top => {
             let height = |c| frame.contact_middle(c).z;
             let top = frame.contacts.ids().reduce(|a, b| if height(b) > height(a) { b } else { a });

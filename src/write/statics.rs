@@ -3,5 +3,5 @@
 mod figures;
 mod json;
 
-pub use figures::{StaticsFigures, statics_figures};
+pub use figures::{StaticsFigures, StiffenedFigures, TriedFigures, statics_figures};
 pub use json::statics_json;

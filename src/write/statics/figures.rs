@@ -1,8 +1,34 @@
 //! What `report.json` says of the statics.
 
+use crate::statics::goal::Goal;
 use crate::statics::solve::StaticsError;
 use crate::statics::study::{Largest, Study};
 use serde::Serialize;
+
+/// What became of turn, slide and tile edge where a frame was stiffened.
+#[derive(Clone, Debug, Serialize)]
+pub struct StiffenedFigures {
+    /// `utilisation` or `displacement`.
+    pub goal: Goal,
+    pub before: TriedFigures,
+    pub after: TriedFigures,
+    /// How many frames were tried.
+    pub tried: usize,
+}
+
+/// A frame that was tried.
+#[derive(Clone, Debug, Serialize)]
+pub struct TriedFigures {
+    /// Degrees.
+    pub turn: f64,
+    /// In tile edges.
+    pub slide: f64,
+    /// mm.
+    pub edge: f64,
+    pub rods: usize,
+    /// Utilisation as part of the strength, or displacement in mm at the size that was studied.
+    pub value: f64,
+}
 
 /// What was found, or why the frame does not stand.
 #[derive(Clone, Debug, Serialize)]
