@@ -1,6 +1,7 @@
 //! `rodwright build`: the main job.
 
 use super::progress::Progress;
+use super::statics::does_not_stand;
 use super::summary::summary;
 use super::terminal::{Terminal, print};
 use super::{Failure, design_failure, folder_failure};
@@ -137,7 +138,7 @@ fn warnings(design: &Design, model: &Model) -> Vec<String> {
         ));
     }
     if let Some(Err(e)) = &model.statics {
-        warnings.push(format!("statics: {e}. --supports auto adds feet until it stands"));
+        warnings.push(format!("statics: {}", does_not_stand(e)));
     }
     if !frame.dropped.is_empty() {
         warnings.push(format!(

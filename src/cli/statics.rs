@@ -6,6 +6,7 @@ use super::terminal::{Terminal, print};
 use super::{Failure, design_failure, folder_failure};
 use crate::design::{Design, Folders, Settings, StaticsSettings};
 use crate::documents;
+use crate::statics::solve::StaticsError;
 use crate::statics::study::study;
 use crate::write::folder::OutputFolder;
 use std::path::{Path, PathBuf};
@@ -49,7 +50,7 @@ pub fn run(args: Args, terminal: &Terminal) -> Result<(), Failure> {
     let given = args.settings.or(built);
     let wish = given.resolve(None).map_err(Failure::input)?;
     let question = wish.about(&frame).map_err(Failure::input)?;
-    let study = study(&frame, question).map_err(Failure::input)?;
+    let study = study(&frame, question).map_err(|e| Failure::input(does_not_stand(&e)))?;
     for (name, bytes) in documents::statics_files(&design, &study).map_err(Failure::input)? {
         folder.replace(name, bytes).map_err(folder_failure)?;
     }
@@ -59,6 +60,14 @@ pub fn run(args: Args, terminal: &Terminal) -> Result<(), Failure> {
         Some(json) if args.json => print(&json),
         _ if args.quiet => Ok(()),
         _ => print(page(&study, &args.folder, terminal).as_bytes()),
+    }
+}
+
+/// Why a frame does not stand, and what to try.
+pub fn does_not_stand(e: &StaticsError) -> String {
+    match e {
+        StaticsError::Loose(_) => format!("{e}. --supports auto adds feet until it stands"),
+        StaticsError::Linalg(_) => e.to_string(),
     }
 }
 

@@ -156,3 +156,29 @@ fn what_cannot_be_asked_is_said() {
     let message = String::from_utf8(run.get_output().stderr.clone()).unwrap();
     assert!(message.contains("rodwright build"), "{message}");
 }
+
+/// A frame that is made stiffer is better by what the report says, and the design repeats it.
+#[test]
+fn a_frame_is_made_stiffer() {
+    let home = tempdir().unwrap();
+    let options = ["--load", "top:1kg", "--stiffen", "displacement", "--only", "csv,statics"];
+    build(home.path(), "vault", &options);
+    let out = home.path().join("out");
+    let report = json(&out.join("report.json"));
+    let [before, after] = ["before", "after"].map(|when| &report["stiffened"][when]);
+    assert!(after["value"].as_f64().unwrap() < 0.8 * before["value"].as_f64().unwrap());
+    assert_eq!(after["value"], report["statics"]["displacement"]["value"]);
+    assert_eq!(report["turn"], after["turn"]);
+    // The plain build is the frame before.
+    let first = snapshot(&out);
+    let design = out.join("design.toml");
+    std::fs::rename(&design, home.path().join("again.toml")).unwrap();
+    let mut again = rodwright(home.path());
+    again.args(["build", "--design", "again.toml", "-q", "-o", "again"]).assert().success();
+    let again = snapshot(&home.path().join("again"));
+    assert_eq!(again["structure.json"], first["structure.json"]);
+    assert_eq!(again["statics.json"], first["statics.json"]);
+    build(home.path(), "vault", &["--load", "top:1kg", "--only", "csv,statics", "--force"]);
+    let plain = json(&out.join("report.json"));
+    assert_eq!(plain["statics"]["displacement"]["value"], before["value"]);
+}
