@@ -74,7 +74,6 @@ pub fn does_not_stand(e: &StaticsError) -> String {
 /// The design that a folder was made by.
 fn design(folder: &Path) -> Result<Design, Failure> {
     let settings = Settings::read(&folder.join("design.toml")).map_err(design_failure)?;
-    let here = Some(folder);
-    let folders = Folders { surface: here, pattern: here, as_built: here, templates: here };
-    settings.resolve(folders).map_err(design_failure)
+    let folders = Folders { templates: Some(folder), ..Folders::default() };
+    settings.of_papers().resolve(folders).map_err(design_failure)
 }

@@ -258,6 +258,22 @@ impl Settings {
         })
     }
 
+    /// Those settings that tell how to print what is known of a finished frame: without what
+    /// it was made by, whose files may be elsewhere by now.
+    #[must_use]
+    pub fn of_papers(self) -> Self {
+        Self {
+            surface: self.surface,
+            paper: self.paper,
+            units: self.units,
+            language: self.language,
+            templates: self.templates,
+            stiffen: self.stiffen,
+            statics: self.statics,
+            ..Self::default()
+        }
+    }
+
     /// These settings, with those of `other` where these say nothing.
     pub fn or(self, other: Self) -> Self {
         // One of the two ways to share lengths takes the place of the other.

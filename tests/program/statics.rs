@@ -173,8 +173,8 @@ fn a_frame_is_made_stiffer() {
     let first = snapshot(&out);
     let design = out.join("design.toml");
     std::fs::rename(&design, home.path().join("again.toml")).unwrap();
-    let mut again = rodwright(home.path());
-    again.args(["build", "--design", "again.toml", "-q", "-o", "again"]).assert().success();
+    let again = ["build", &sample("vault.obj"), "--design", "again.toml", "-q", "-o", "again"];
+    rodwright(home.path()).args(again).assert().success();
     let again = snapshot(&home.path().join("again"));
     assert_eq!(again["structure.json"], first["structure.json"]);
     assert_eq!(again["statics.json"], first["statics.json"]);
