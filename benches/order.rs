@@ -7,17 +7,10 @@
 mod dome;
 mod measure;
 
-use dome::{Dome, dome_edge};
+use dome::standing_dome;
 use measure::{forget_peak, growth, least, ms, peak_memory};
 use rodwright::frame::Frame;
-use rodwright::frame::canvas::{Canvas, PlaneCanvas};
-use rodwright::frame::close::Way;
-use rodwright::frame::form::{FormSettings, form, median_rise};
-use rodwright::frame::layer::Layering;
-use rodwright::frame::share::Share;
-use rodwright::pattern::Pattern;
 use rodwright::shop::{Order, OrderSettings, assembly};
-use rodwright::tiling::Placement;
 use std::time::Duration;
 
 /// Rod counts aimed at.
@@ -36,34 +29,11 @@ fn main() {
     );
     let mut last = [None; 2];
     for rods in SIZES.into_iter().filter(|&size| size <= most) {
-        let frame = dome(rods);
+        let frame = standing_dome(rods);
         for (i, order) in [Order::Crown, Order::Ground].into_iter().enumerate() {
             last[i] = Some(row(&frame, order, last[i]));
         }
     }
-}
-
-/// A frame on a dome that stands on its rim.
-fn dome(rods: f64) -> Frame {
-    let dome = Dome { radius: 300.0, part: 1.0 };
-    let pattern = Pattern::named("4.4.4.4").expect("4.4.4.4 is in the library");
-    let edge = dome_edge(&dome, rods);
-    let placement = Placement { origin: [0.0; 2].into(), rotation: 0.0, edge };
-    let canvas = PlaneCanvas::new(&dome, pattern, placement, pattern.usual());
-    let canvas = canvas.expect("under a million");
-    let (_, diameter) = median_rise(&canvas).expect("there are units");
-    let settings = FormSettings {
-        sizes: Default::default(),
-        diameter,
-        overhang: 2.0 * diameter,
-        round: 1e-3 * canvas.edge(),
-        share: Share::Off,
-        layering: Layering::Auto,
-        way: Way::default(),
-        // The height of its rim: 3/5 of the radius.
-        surface_low: 0.6 * dome.radius,
-    };
-    form(&canvas, &settings).expect("a dome can be built").frame
 }
 
 /// One row; returns the number of rods and the time, ms.

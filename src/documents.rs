@@ -4,7 +4,7 @@ use crate::design::{Design, Part};
 use crate::drawing::pdf::{self, DocumentInfo, Page};
 use crate::drawing::{Drawing, DrawingError, dxf, svg};
 use crate::frame::arrangement::arrangement;
-use crate::pipeline::Model;
+use crate::pipeline::{Model, Stiffened, Tried};
 use crate::sheets::labels::labels;
 use crate::sheets::viewer::viewer;
 use crate::sheets::{Document, LaserProfile, TextError, document_title, handout, jigs, notes};
@@ -14,10 +14,12 @@ use crate::sheets::{
 use crate::sheets::{pictures, sheets, step_sheets, support_map};
 use crate::shop::Jigs;
 use crate::shop::lengths::classes;
+use crate::statics::study::Study;
 use crate::write::assembly::assembly_json;
 use crate::write::cutlist::{cutlist_csv, cutlist_json};
 use crate::write::glb::{GlbError, assembly_glb, glb};
 use crate::write::report::{self, Report};
+use crate::write::statics::{StiffenedFigures, TriedFigures, statics_figures, statics_json};
 use crate::write::structure::{Structure, StructureFault};
 use crate::write::tables::{self, TableError};
 use thiserror::Error;
@@ -89,12 +91,25 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
         let sheet = footprint::drawing(plane, &sheet_settings(design, model)?)?;
         files.add("footprint.svg", svg::render(&sheet)?);
     }
+    if let (Some(Ok(study)), true) = (&model.statics, design.wants(Part::Statics)) {
+        files.0.extend(statics_files(design, study)?);
+    }
     if let Some(Ok(jigs)) = &model.jigs {
         add_jigs(jigs, design.laser, &mut files)?;
     }
     if design.wants(Part::Pictures) {
         add_pictures(design, model, &mut files)?;
     }
+    Ok(files.0)
+}
+
+/// The files about the statics of a frame.
+///
+/// # Errors
+/// [`DocumentError`] when one cannot be drawn or encoded.
+pub fn statics_files(_design: &Design, study: &Study) -> Result<Vec<OutputFile>, DocumentError> {
+    let mut files = Files::default();
+    files.add("statics.json", statics_json(study)?);
     Ok(files.0)
 }
 
@@ -126,9 +141,24 @@ fn report(design: &Design, model: &Model) -> Report {
         shared_lengths: model.formed.shared.as_ref().map(report::shared),
         as_built: model.as_built.as_ref().map(report::as_built),
         tolerance: model.misfit.as_ref().map(report::tolerance),
+        stiffened: model.stiffened.map(stiffened_figures),
+        statics: model.statics.as_ref().map(statics_figures),
         jigs: model.jigs.as_ref().map(report::jigs),
         dropped: report::dropped(&model.formed.frame),
     }
+}
+
+/// What `report.json` says of a frame that was stiffened.
+fn stiffened_figures(stiffened: Stiffened) -> StiffenedFigures {
+    let Stiffened { goal, before, after, tried } = stiffened;
+    let figures = |Tried { turn, slide, edge, rods, value }| TriedFigures {
+        turn: turn.to_degrees(),
+        slide,
+        edge,
+        rods,
+        value,
+    };
+    StiffenedFigures { goal, before: figures(before), after: figures(after), tried }
 }
 
 fn add_sheets(design: &Design, model: &Model, files: &mut Files) -> Result<(), DocumentError> {
@@ -205,6 +235,7 @@ fn sheet_settings(design: &Design, model: &Model) -> Result<SheetSettings, TextE
         paper: design.paper,
         units: design.units,
         density: design.density,
+        sawn: model.as_built.iter().flat_map(|what| what.sawn.iter().copied()).collect(),
         notes: Vec::new(),
         texts: design.texts.clone(),
     };
@@ -249,8 +280,8 @@ pub enum DocumentError {
     /// structure.json.
     #[error(transparent)]
     Structure(#[from] StructureFault),
-    /// report.json.
-    #[error("report.json cannot be written: {0}")]
+    /// report.json or statics.json.
+    #[error("a report cannot be written: {0}")]
     Report(#[from] serde_json::Error),
     /// A table.
     #[error(transparent)]

@@ -1,7 +1,8 @@
-//! Lengths and angles as people write them: `3mm`, `12 cm`, `1/8in`, `2ft`, `20deg`.
+//! Lengths, angles, forces and pressures as people write them: `3mm`, `12 cm`, `1/8in`, `2ft`,
+//! `20deg`, `100N`, `2kg`, `0.5kPa`.
 //!
-//! These types stand at the border of the program. Inside, lengths are plain
-//! `f64` in mm and angles plain `f64` in radians.
+//! These types stand at the border of the program. Inside, lengths are plain `f64` in mm,
+//! angles in radians, forces in N, pressures in MPa.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::fmt;
@@ -16,7 +17,23 @@ pub struct Length(f64);
 #[derive(Clone, Copy, PartialEq, PartialOrd, Debug)]
 pub struct Angle(f64);
 
-/// Why a text is not a length or an angle.
+/// A finite force, held in N. A mass stands for its weight.
+#[derive(Clone, Copy, PartialEq, PartialOrd, Debug)]
+pub struct Force(f64);
+
+/// A finite pressure, held in kPa, which is kN/m². A mass on an area stands for its weight.
+#[derive(Clone, Copy, PartialEq, PartialOrd, Debug)]
+pub struct Pressure(f64);
+
+/// Standard gravity, m/s².
+pub const GRAVITY: f64 = 9.80665;
+
+/// Newtons to the pound-force.
+const NEWTON_PER_POUND: f64 = 0.453_592_37 * GRAVITY;
+/// Square metres to the square foot.
+const M2_PER_FOOT2: f64 = 0.092_903_04;
+
+/// Why a text is not a length, angle, force or pressure.
 #[derive(Error, Debug, PartialEq)]
 pub enum UnitError {
     /// The text holds no number at its start.
@@ -72,6 +89,32 @@ impl Angle {
     }
 }
 
+impl Force {
+    /// In newtons.
+    pub fn newtons(self) -> f64 {
+        self.0
+    }
+
+    fn from_newtons(newtons: f64) -> Result<Self, UnitError> {
+        finite(newtons).map(Self)
+    }
+}
+
+impl Pressure {
+    /// In megapascals, which is N/mm².
+    pub fn mpa(self) -> f64 {
+        self.0 * 1e-3
+    }
+
+    fn from_kpa(kpa: f64) -> Result<Self, UnitError> {
+        finite(kpa).map(Self)
+    }
+}
+
+fn finite(x: f64) -> Result<f64, UnitError> {
+    if x.is_finite() { Ok(x) } else { Err(UnitError::NotFinite(x.to_string())) }
+}
+
 /// Splits `text` into its leading number (a decimal, or a fraction such as
 /// `1/8` or `1 1/2`) and the trimmed rest.
 fn split_number<'a>(text: &'a str, example: &'static str) -> Result<(f64, &'a str), UnitError> {
@@ -123,13 +166,7 @@ impl FromStr for Length {
             "m" => 1000.0,
             "in" | "inch" | "\"" => MM_PER_INCH,
             "ft" | "'" => 12.0 * MM_PER_INCH,
-            _ => {
-                return Err(UnitError::UnknownUnit {
-                    text: text.to_string(),
-                    unit: unit.to_string(),
-                    known: "mm, cm, m, in or ft",
-                });
-            }
+            _ => return Err(unknown(text, unit, "mm, cm, m, in or ft")),
         };
         Self::from_mm(value * scale)
     }
@@ -143,12 +180,59 @@ impl FromStr for Angle {
         match unit {
             "" | "deg" | "°" => Self::from_degrees(value),
             "rad" => Self::from_degrees(value.to_degrees()),
-            _ => Err(UnitError::UnknownUnit {
-                text: text.to_string(),
-                unit: unit.to_string(),
-                known: "deg or rad",
-            }),
+            _ => Err(unknown(text, unit, "deg or rad")),
         }
+    }
+}
+
+impl FromStr for Force {
+    type Err = UnitError;
+
+    fn from_str(text: &str) -> Result<Self, UnitError> {
+        let (value, unit) = split_number(text, "100N, 2kg or 5lbf")?;
+        let scale = match unit {
+            "" | "N" => 1.0,
+            "kN" => 1e3,
+            "kg" => GRAVITY,
+            "g" => GRAVITY * 1e-3,
+            "lb" | "lbf" => NEWTON_PER_POUND,
+            _ => return Err(unknown(text, unit, "N, kN, kg, g or lb")),
+        };
+        Self::from_newtons(value * scale)
+    }
+}
+
+impl FromStr for Pressure {
+    type Err = UnitError;
+
+    fn from_str(text: &str) -> Result<Self, UnitError> {
+        let (value, unit) = split_number(text, "0.5kPa, 50kg/m2 or 10psf")?;
+        let scale = match unit {
+            "" | "kPa" | "kN/m2" | "kN/m²" => 1.0,
+            "Pa" | "N/m2" | "N/m²" => 1e-3,
+            "kg/m2" | "kg/m²" => GRAVITY * 1e-3,
+            "psf" => NEWTON_PER_POUND / M2_PER_FOOT2 * 1e-3,
+            _ => return Err(unknown(text, unit, "kPa, Pa, kN/m2, N/m2, kg/m2 or psf")),
+        };
+        Self::from_kpa(value * scale)
+    }
+}
+
+fn unknown(text: &str, unit: &str, known: &'static str) -> UnitError {
+    UnitError::UnknownUnit { text: text.to_string(), unit: unit.to_string(), known }
+}
+
+/// With the shortest digits that read back as the same number.
+impl fmt::Display for Force {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}N", self.0)
+    }
+}
+
+/// With the shortest digits that read back as the same number.
+impl fmt::Display for Pressure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}kPa", self.0)
     }
 }
 
@@ -205,6 +289,7 @@ macro_rules! serde_as_text {
 
 serde_as_text!(Length, Length::from_mm);
 serde_as_text!(Angle, Angle::from_degrees);
+serde_as_text!(Pressure, Pressure::from_kpa);
 
 #[cfg(test)]
 mod tests {
@@ -233,6 +318,18 @@ mod tests {
         assert!((a.degrees() - 20.0).abs() < 1e-12);
         let b: Angle = "0.5rad".parse().unwrap();
         assert!((b.radians() - 0.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn masses_are_weights() {
+        let newtons = |text: &str| text.parse::<Force>().unwrap().newtons();
+        assert_eq!([newtons("100N"), newtons("-1.5kN"), newtons("3")], [100.0, -1500.0, 3.0]);
+        assert_eq!(newtons("2kg"), 2.0 * 9.80665);
+        assert!((newtons("1lbf") - 4.448_221_615).abs() < 1e-9);
+        let mpa = |text: &str| text.parse::<Pressure>().unwrap().mpa();
+        assert_eq!([mpa("0.5kPa"), mpa("500 Pa"), mpa("0.5")], [0.5e-3; 3]);
+        assert!((mpa("1psf") - 47.880_259e-6).abs() < 1e-12);
+        assert!("5 apples".parse::<Force>().unwrap_err().to_string().contains("kg"));
     }
 
     #[test]

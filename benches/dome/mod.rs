@@ -2,6 +2,14 @@
 
 use nalgebra::Point2;
 use rodwright::chart::{Chart, SurfacePoint};
+use rodwright::frame::Frame;
+use rodwright::frame::canvas::{Canvas, PlaneCanvas};
+use rodwright::frame::close::Way;
+use rodwright::frame::form::{FormSettings, form, median_rise};
+use rodwright::frame::layer::Layering;
+use rodwright::frame::share::Share;
+use rodwright::pattern::Pattern;
+use rodwright::tiling::Placement;
 
 /// A dome: the part of a sphere of this radius, mm, whose stereographic picture lies within a
 /// disk of this part of it.
@@ -32,4 +40,28 @@ pub fn dome_edge(dome: &Dome, rods: f64) -> f64 {
     // Two rods a tile, and some less at the rim.
     let area = std::f64::consts::PI * (dome.radius * dome.part).powi(2);
     (2.0 * area / rods).sqrt() * (1.0 - 0.9 / rods.sqrt())
+}
+
+/// A frame on a dome that stands on its rim.
+#[allow(dead_code, reason = "not every bench has frames that stand")]
+pub fn standing_dome(rods: f64) -> Frame {
+    let dome = Dome { radius: 300.0, part: 1.0 };
+    let pattern = Pattern::named("4.4.4.4").expect("4.4.4.4 is in the library");
+    let edge = dome_edge(&dome, rods);
+    let placement = Placement { origin: [0.0; 2].into(), rotation: 0.0, edge };
+    let canvas = PlaneCanvas::new(&dome, pattern, placement, pattern.usual());
+    let canvas = canvas.expect("under a million");
+    let (_, diameter) = median_rise(&canvas).expect("there are units");
+    let settings = FormSettings {
+        sizes: Default::default(),
+        diameter,
+        overhang: 2.0 * diameter,
+        round: 1e-3 * canvas.edge(),
+        share: Share::Off,
+        layering: Layering::Auto,
+        way: Way::default(),
+        // The height of its rim: 3/5 of the radius.
+        surface_low: 0.6 * dome.radius,
+    };
+    form(&canvas, &settings).expect("a dome can be built").frame
 }

@@ -1,16 +1,17 @@
 //! `rodwright build`: the main job.
 
 use super::progress::Progress;
+use super::statics::does_not_stand;
 use super::summary::summary;
 use super::terminal::{Terminal, print};
-use super::{Failure, design_failure};
+use super::{Failure, design_failure, folder_failure};
 use crate::design::{Design, Folders, Settings};
 use crate::documents;
 use crate::frame::fit::{Fit, FitBy};
 use crate::frame::guide::Guide;
 use crate::frame::layer::Layering;
 use crate::pipeline::{self, Model, Step, UNEVEN_ADVICE};
-use crate::write::folder::{FolderError, OutputFolder};
+use crate::write::folder::OutputFolder;
 use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
@@ -75,13 +76,6 @@ pub fn run(args: Args, terminal: &Terminal) -> Result<(), Failure> {
     }
 }
 
-fn folder_failure(e: FolderError) -> Failure {
-    Failure::file(match e.hint() {
-        Some(hint) => format!("{e}. To mend it, {hint}"),
-        None => e.to_string(),
-    })
-}
-
 fn design(args: &Args) -> Result<Design, Failure> {
     let from_file = match &args.design {
         Some(file) => Settings::read(file).map_err(design_failure)?,
@@ -142,6 +136,9 @@ fn warnings(design: &Design, model: &Model) -> Vec<String> {
             "{} rods reach the ground: the model needs a stand or a rim to rest on",
             frame.supports.len()
         ));
+    }
+    if let Some(Err(e)) = &model.statics {
+        warnings.push(format!("statics: {}", does_not_stand(e)));
     }
     if !frame.dropped.is_empty() {
         warnings.push(format!(

@@ -10,11 +10,14 @@ mod page;
 mod patterns;
 mod progress;
 mod sample;
+mod statics;
+mod statics_page;
 mod summary;
 mod templates;
 mod terminal;
 
 use crate::design::DesignError;
+use crate::write::folder::FolderError;
 use clap::{ColorChoice, CommandFactory, Parser, Subcommand};
 use std::path::Path;
 use std::process::ExitCode;
@@ -42,6 +45,8 @@ enum Command {
     Patterns(patterns::Args),
     /// Tell everything about a rod, contact or unit of a finished folder, or about a surface
     Inspect(inspect::Args),
+    /// Study a finished frame under loads: stresses, displacements, what the ground carries
+    Statics(Box<statics::Args>),
     /// Write a surface or a finished structure in another format
     Convert(convert::Args),
     /// Write a sample surface
@@ -94,6 +99,14 @@ fn design_failure(e: DesignError) -> Failure {
     if e.is_io() { Failure::file(e) } else { Failure::input(e) }
 }
 
+/// A folder that cannot be written, and what to do about it.
+fn folder_failure(e: FolderError) -> Failure {
+    Failure::file(match e.hint() {
+        Some(hint) => format!("{e}. To mend it, {hint}"),
+        None => e.to_string(),
+    })
+}
+
 /// Runs the program with the arguments of the process.
 ///
 /// Exit status: 0 done; 1 the input or design cannot give a structure; 2 wrong
@@ -105,6 +118,7 @@ pub fn run() -> ExitCode {
         Command::Build(args) => build::run(*args, &terminal),
         Command::Patterns(args) => patterns::run(&args, &terminal),
         Command::Inspect(args) => inspect::run(args, &terminal),
+        Command::Statics(args) => statics::run(*args, &terminal),
         Command::Convert(args) => convert::run(&args, &terminal),
         Command::Sample(args) => sample::run(&args),
         Command::Templates(args) => templates::run(&args, &terminal),

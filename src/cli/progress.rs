@@ -60,6 +60,8 @@ fn doing(step: Step) -> &'static str {
         Step::Tolerance => "trying errors of marks",
         Step::Saw => "planning the cuts",
         Step::Order => "ordering the steps",
+        Step::Stiffen => "making it stiffer",
+        Step::Statics => "finding stresses",
         Step::Jigs => "laying out jigs",
         Step::Draw => "drawing the papers",
         Step::Write => "writing the folder",

@@ -1,5 +1,6 @@
 //! The summary at the end of a run, for the builder.
 
+use super::statics_page::{self, digits};
 use super::terminal::Terminal;
 use crate::design::Design;
 use crate::frame::Frame;
@@ -9,9 +10,10 @@ use crate::frame::fit::FitBy;
 use crate::frame::share::Shared;
 use crate::frame::tolerance::{Misfit, Tolerance};
 use crate::ids::RodId;
-use crate::pipeline::Model;
+use crate::pipeline::{Model, Stiffened, Tried};
 use crate::shop::lengths::diameters;
 use crate::shop::{Aim, Assembly, CutPlan, JigError, Jigs, Order, Purchase};
+use crate::statics::goal::Goal;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -49,6 +51,8 @@ pub fn summary(design: &Design, model: &Model, out: &Path, terminal: &Terminal) 
         ("left out", left_out(model)),
     ]);
     rows.extend(model.assembly.as_ref().map(|assembly| ("assembly", put_together(assembly))));
+    rows.extend(model.stiffened.map(|stiffened| ("stiffened", stiffer(stiffened))));
+    rows.extend(model.statics.iter().flatten().map(|study| ("statics", statics_page::line(study))));
     rows.extend(model.as_built.as_ref().map(|what| ("as built", as_built(what))));
     rows.extend(model.misfit.as_ref().map(|misfit| ("tolerance", tolerance(misfit))));
     rows.extend(model.jigs.as_ref().map(|jigs| ("for the laser", lasered(jigs))));
@@ -208,6 +212,27 @@ fn to_be_tied(model: &Model) -> String {
         1 => "1 contact, where the end of a rod hangs below the other".into(),
         n => format!("{n} contacts, where the end of a rod hangs below the other"),
     }
+}
+
+/// What stiffening came to.
+fn stiffer(stiffened: Stiffened) -> String {
+    let Stiffened { goal, before, after, tried } = stiffened;
+    let figure = |of: Tried| match goal {
+        Goal::Utilisation => format!("{} %", digits(100.0 * of.value)),
+        Goal::Displacement => format!("{} mm", digits(of.value)),
+    };
+    let what = match goal {
+        Goal::Utilisation => "of the strength",
+        Goal::Displacement => "of movement",
+    };
+    let Tried { turn, slide, edge, .. } = after;
+    format!(
+        "from {} to {} {what}: turn {:.1}°, slide {slide:.3}, tile edge {edge:.1} mm ({tried} \
+         frames tried)",
+        figure(before),
+        figure(after),
+        turn.to_degrees()
+    )
 }
 
 /// In which order the frame is put together, and what that takes.

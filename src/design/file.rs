@@ -1,10 +1,12 @@
 //! design.toml: every setting as it was used.
 
+use super::statics::OwnMaterial;
 use super::{Design, Tiles};
 use crate::frame::fit::Fit;
 use crate::frame::share::Share;
 use crate::sheets::Paper;
 use crate::shop::Order;
+use crate::statics::material::Material;
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -43,11 +45,15 @@ impl Design {
             file.set("tolerance", toml::Table::from_iter(table));
             file.set("seed", i64::from(self.seed));
         }
+        if let Some(goal) = self.stiffen {
+            file.set("stiffen", choice(goal));
+        }
         if let Some(only) = &self.given.only {
             file.set("only", choice(only));
         }
-        // What follows a table belongs to it, so it comes last.
+        // What follows a table belongs to it, so they come last.
         self.rod_table(&mut file);
+        self.statics_table(&mut file);
         file.text
     }
 
@@ -121,6 +127,37 @@ impl Design {
         let unnamed = unnamed.into_iter().filter_map(|(key, ends)| Some((key.to_owned(), ends?)));
         for (key, [a, b]) in unnamed.chain(rods) {
             if a == b { file.set(&key, mm(a)) } else { file.set(&key, vec![mm(a), mm(b)]) }
+        }
+    }
+
+    /// What is asked of the statics, if they are.
+    fn statics_table(&self, file: &mut TomlFile) {
+        let Some(wish) = &self.statics else { return };
+        let given = self.given.statics.clone().unwrap_or_default();
+        file.table("statics");
+        let named = Material::named(&wish.material_name);
+        if named.is_some_and(|named| named == wish.material) {
+            file.set("material", wish.material_name.clone());
+        } else {
+            file.set("material", table(OwnMaterial::of(&wish.material_name, &wish.material)));
+        }
+        file.set("joint", choice(wish.hold));
+        file.set("feet", choice(wish.feet));
+        if let Some(loads) = &given.loads {
+            file.set("loads", loads.iter().map(ToString::to_string).collect::<Vec<_>>());
+        }
+        if let Some(snow) = given.snow {
+            file.set("snow", snow.to_string());
+        }
+        if let Some(span) = wish.span {
+            file.set("span", mm(span));
+        }
+        if given.combinations.is_some() {
+            let names = wish.combinations.iter().map(|c| c.name.clone());
+            file.set("combinations", names.collect::<Vec<_>>());
+        }
+        if let Some(supports) = given.supports {
+            file.set("supports", choice(supports));
         }
     }
 
@@ -214,6 +251,11 @@ impl TomlFile {
 /// A choice as the file names it.
 fn choice(value: impl Serialize) -> toml::Value {
     toml::Value::try_from(value).expect("choices are written by their names: TOML strings")
+}
+
+/// A value that is written as a table.
+fn table(value: impl Serialize) -> toml::Value {
+    toml::Value::try_from(value).expect("its fields are texts and finite numbers")
 }
 
 fn mm(length: f64) -> String {

@@ -9,6 +9,7 @@ mod measured;
 mod resolve;
 mod rod;
 mod settings;
+mod statics;
 mod stock;
 mod tolerance;
 
@@ -16,6 +17,7 @@ pub use measured::MeasuredTable;
 pub use resolve::Folders;
 pub use rod::RodSetting;
 pub use settings::Settings;
+pub use statics::{LoadSetting, StaticsSettings};
 pub use stock::{OffcutItem, StockItem};
 pub use tolerance::ToleranceSetting;
 
@@ -31,6 +33,8 @@ use crate::sheets::labels::LabelSettings;
 use crate::sheets::{Language, LaserProfile, Paper, PaperUnits, TextError, Texts};
 use crate::shop::laser::Material;
 use crate::shop::{JigSettings, OrderSettings, Stock};
+use crate::statics::goal::Goal;
+use crate::statics::wish::Wish;
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
 use crate::surface::up::Up;
@@ -71,6 +75,9 @@ pub enum Part {
     SupportMap,
     /// footprint.svg: the flattened surface on its pattern.
     Footprint,
+    /// statics.json, model.inp, model.mac, statics.pdf, statics/*.svg, where the statics are asked
+    /// for
+    Statics,
     /// jigs.svg, jigs.dxf: laser-cut parts; of several sheets jigs/*.svg, jigs/*.dxf. Where it
     /// is not named, they are left out if they do not fit the sheets
     Jigs,
@@ -79,7 +86,7 @@ pub enum Part {
 }
 
 /// What is written where nothing is named.
-const ALL_PARTS: [Part; 13] = [
+const ALL_PARTS: [Part; 14] = [
     Part::Structure,
     Part::Csv,
     Part::Cutlist,
@@ -91,6 +98,7 @@ const ALL_PARTS: [Part; 13] = [
     Part::Handout,
     Part::SupportMap,
     Part::Footprint,
+    Part::Statics,
     Part::Jigs,
     Part::Pictures,
 ];
@@ -213,6 +221,10 @@ pub struct Design {
     pub tolerance: Option<Tolerance>,
     /// Where the random errors of that start.
     pub seed: u32,
+    /// What is asked of the statics, if they are.
+    pub statics: Option<Wish>,
+    /// What turn, slide and tile edge are changed for, if they are.
+    pub stiffen: Option<Goal>,
     /// What to write.
     pub only: Vec<Part>,
     given: Settings,
@@ -282,6 +294,11 @@ impl Design {
     /// Whether a part is named, and not only written with all others.
     pub fn names(&self, part: Part) -> bool {
         self.given.only.iter().flatten().any(|&named| named == part)
+    }
+
+    /// What was asked of the statics, as it was given.
+    pub fn statics_as_given(&self) -> StaticsSettings {
+        self.given.statics.clone().unwrap_or_default()
     }
 
     /// Whether a part is to be written.

@@ -8,6 +8,7 @@ use crate::pattern::{Pattern, Shape, library};
 use crate::sheets::labels::LabelSettings;
 use crate::sheets::{Paper, Texts};
 use crate::shop::{Jig, JigSettings, Offer, OrderSettings, Stock};
+use crate::statics::wish::Wish;
 use crate::tiling::conway::Notation;
 use crate::units::{Angle, Length};
 use std::path::{Path, PathBuf};
@@ -31,7 +32,11 @@ fn beside(folder: Option<&Path>, file: &Path) -> PathBuf {
     folder.map(|f| f.join(file)).filter(|f| f.exists()).unwrap_or_else(|| file.to_path_buf())
 }
 
-fn setting(key: &'static str, value: impl ToString, problem: impl Into<String>) -> DesignError {
+pub(super) fn setting(
+    key: &'static str,
+    value: impl ToString,
+    problem: impl Into<String>,
+) -> DesignError {
     DesignError::Setting { key, value: value.to_string(), problem: problem.into() }
 }
 
@@ -89,6 +94,8 @@ impl Settings {
             measured: self.measured(folders.as_built)?,
             tolerance: self.tolerance()?,
             seed: self.seed.unwrap_or(DEFAULT_SEED),
+            statics: self.studied()?,
+            stiffen: self.stiffen,
             only: self.only.clone().unwrap_or_else(|| ALL_PARTS.to_vec()),
             given: self,
         })
@@ -162,8 +169,23 @@ impl Settings {
         Ok(JigSettings { kinds, sheet: [width, height], thickness, kerf })
     }
 
+    /// What is asked of the statics, if they are.
+    fn studied(&self) -> Result<Option<Wish>, DesignError> {
+        let named = self.only.iter().flatten().any(|&part| part == Part::Statics);
+        if !self.study && !named && self.statics.is_none() && self.stiffen.is_none() {
+            return Ok(None);
+        }
+        if self.stiffen.is_some() && self.as_built.is_some() {
+            let why = "the sticks are sawn already";
+            return Err(DesignError::Idle { key: "stiffen", why });
+        }
+        let settings = self.statics.clone().unwrap_or_default();
+        settings.resolve(self.density).map(Some)
+    }
+
     fn density(&self) -> Result<f64, DesignError> {
-        let density = self.density.unwrap_or(DEFAULT_DENSITY);
+        let of_rods = self.studied()?.map(|wish| wish.material.density);
+        let density = self.density.or(of_rods).unwrap_or(DEFAULT_DENSITY);
         if density > 0.0 && density.is_finite() {
             return Ok(density);
         }
@@ -344,7 +366,10 @@ const MOST_THICKNESS: f64 = 25.0;
 /// Step of cut lengths, mm: what can be marked and sawn by hand.
 const DEFAULT_ROUND: f64 = 0.5;
 
-fn positive(key: &'static str, length: Option<Length>) -> Result<Option<f64>, DesignError> {
+pub(super) fn positive(
+    key: &'static str,
+    length: Option<Length>,
+) -> Result<Option<f64>, DesignError> {
     match length {
         Some(l) if l.mm() <= 0.0 => Err(setting(key, l, "must be more than nothing")),
         other => Ok(other.map(Length::mm)),

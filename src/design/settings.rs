@@ -1,7 +1,7 @@
 //! The settings as given, on the command line or in design.toml.
 
 use super::stock::{OffcutItem, StockItem};
-use super::{DesignError, Part, RodSetting, ToleranceSetting};
+use super::{DesignError, Part, RodSetting, StaticsSettings, ToleranceSetting};
 use crate::chart::Method;
 use crate::frame::close::Way;
 use crate::frame::layer::Layering;
@@ -10,6 +10,7 @@ use crate::sheets::labels::LabelMedium;
 use crate::sheets::{Language, LaserProfile, Paper, PaperUnits};
 use crate::shop::laser::Material;
 use crate::shop::{Jig, Order};
+use crate::statics::goal::Goal;
 use crate::surface::component::Component;
 use crate::surface::cut::CutPlane;
 use crate::surface::up::Up;
@@ -224,6 +225,20 @@ pub struct Settings {
     #[arg(long, value_name = "N")]
     pub seed: Option<u32>,
 
+    /// Study under which stresses the frame stands; any of the options of statics does so, too
+    #[arg(long = "statics")]
+    #[serde(skip)]
+    pub study: bool,
+
+    /// Change turn, slide and tile edge so that the largest stress or displacement becomes small
+    /// under the loads given
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub stiffen: Option<Goal>,
+
+    /// What is asked of its statics.
+    #[command(flatten)]
+    pub statics: Option<StaticsSettings>,
+
     /// Write only these besides structure and report [default: all]
     #[arg(long, value_name = "PARTS", value_delimiter = ',', num_args = 1, value_enum)]
     pub only: Option<Vec<Part>>,
@@ -241,6 +256,22 @@ impl Settings {
             file: file.to_path_buf(),
             source: Box::new(source),
         })
+    }
+
+    /// Those settings that tell how to print what is known of a finished frame: without what
+    /// it was made by, whose files may be elsewhere by now.
+    #[must_use]
+    pub fn of_papers(self) -> Self {
+        Self {
+            surface: self.surface,
+            paper: self.paper,
+            units: self.units,
+            language: self.language,
+            templates: self.templates,
+            stiffen: self.stiffen,
+            statics: self.statics,
+            ..Self::default()
+        }
     }
 
     /// These settings, with those of `other` where these say nothing.
@@ -298,6 +329,12 @@ impl Settings {
             as_built: self.as_built.or(other.as_built),
             tolerance: self.tolerance.or(other.tolerance),
             seed: self.seed.or(other.seed),
+            study: self.study || other.study,
+            stiffen: self.stiffen.or(other.stiffen),
+            statics: match (self.statics, other.statics) {
+                (Some(own), Some(other)) => Some(own.or(other)),
+                (own, other) => own.or(other),
+            },
             only: self.only.or(other.only),
         }
     }

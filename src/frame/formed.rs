@@ -40,7 +40,8 @@ pub struct Formed {
     pub tiles: IdVec<UnitId, TileId>,
     /// What the last closing took.
     pub closing: Closing,
-    /// How far each end of each rod moved in it, mm.
+    /// How far each end of each rod moved in it, mm; where the frame was solved again with what
+    /// was measured on its sticks, from where it was planned.
     pub moves: Vec<f64>,
     /// Whether the ending rod of each contact goes over the passing one; true where ends meet.
     pub ending_over: IdVec<ContactId, bool>,

@@ -8,6 +8,7 @@ use crate::frame::form::FormError;
 use crate::linalg::LinalgError;
 use crate::shop::JigError;
 use crate::shop::saw::CutError;
+use crate::statics::wish::LoadError;
 use crate::surface::prepare::PrepareError;
 use crate::surface::read::ReadError;
 use crate::surface::topology::TopologyError;
@@ -83,6 +84,9 @@ pub enum BuildError {
     /// What errors of marks and diameters do.
     #[error("what marks that are off do cannot be found: {0}")]
     Tolerance(LinalgError),
+    /// A load that acts on no rod.
+    #[error(transparent)]
+    Load(#[from] LoadError),
     /// The assembly order.
     #[error("the order of assembly cannot be found: {0}")]
     Order(LinalgError),

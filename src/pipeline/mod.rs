@@ -3,6 +3,7 @@
 
 mod error;
 mod smaller;
+mod stiffen;
 
 pub use error::{BuildError, UNEVEN_ADVICE};
 
@@ -19,17 +20,23 @@ use crate::frame::guide::Guide;
 use crate::frame::measure::{Measures, measure};
 use crate::frame::relax::{Relax, Relaxing, relax};
 use crate::frame::tolerance::{Misfit, misfit};
+use crate::frame::{Frame, Rod};
 use crate::ids::RodId;
 use crate::pattern::{Pattern, Shape};
 use crate::shop::lengths::sticks;
 use crate::shop::saw::{CutPlan, Offer, plan_some};
 use crate::shop::{Assembly, JigError, Jigs, assembly, jigs};
+use crate::statics::solve::StaticsError;
+use crate::statics::study::{Study, study};
+use crate::statics::wish::Wish;
 use crate::surface::prepare::{Prepared, prepare, prepare_polygons};
 use crate::surface::read::{read, read_polygons};
 use crate::surface::topology::require_chartable;
 use crate::tiling::Placement;
 use crate::tiling::midsphere::midsphere;
 use smaller::smaller_while_better;
+use stiffen::stiffened;
+pub use stiffen::{Stiffened, Tried};
 
 /// A finished model: the frame and everything that was found on the way.
 #[derive(Debug)]
@@ -54,6 +61,10 @@ pub struct Model {
     pub misfit: Option<Misfit>,
     /// The sawing plan; without sticks that are sawn.
     pub plan: CutPlan,
+    /// What became of its turn, slide and tile edge, if it was stiffened.
+    pub stiffened: Option<Stiffened>,
+    /// Its stresses, or why it does not stand, if that was asked for.
+    pub statics: Option<Result<Study, StaticsError>>,
     /// In which order it is put together; of models that are only tried, none.
     pub assembly: Option<Assembly>,
     /// What a laser cuts for it, or why that is left out; of models for which it is not
@@ -84,6 +95,10 @@ pub enum Step {
     Saw,
     /// Finding the order in which it is put together.
     Order,
+    /// Changing it until it is stiffer.
+    Stiffen,
+    /// Finding its stresses.
+    Statics,
     /// Laying out what a laser cuts.
     Jigs,
     /// Drawing and encoding the documents.
@@ -101,6 +116,9 @@ pub fn build(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, Buil
     if let Some(measured) = &design.measured {
         model = built(design, measured, model, begin)?;
     }
+    if let Some(wish) = &design.statics {
+        model = loaded(design, wish, model, begin)?;
+    }
     if let Some(tolerance) = design.tolerance {
         begin(Step::Tolerance);
         let frame = &model.formed.frame;
@@ -114,6 +132,26 @@ pub fn build(design: &Design, begin: &mut dyn FnMut(Step)) -> Result<Model, Buil
         begin(Step::Jigs);
         model.jigs = Some(lasered(design, &model)?);
     }
+    Ok(model)
+}
+
+/// The model with its stresses; stiffened before where that is asked for.
+fn loaded(
+    design: &Design,
+    wish: &Wish,
+    mut model: Model,
+    begin: &mut dyn FnMut(Step),
+) -> Result<Model, BuildError> {
+    let mut wish = wish.clone();
+    if let Some(goal) = design.stiffen {
+        begin(Step::Stiffen);
+        wish = wish.in_places(&model.formed.frame)?;
+        let (better, stiffened) = stiffened(design, goal, &wish, model)?;
+        model = Model { stiffened, ..better };
+    }
+    begin(Step::Statics);
+    let frame = &model.formed.frame;
+    model.statics = Some(study(frame, wish.about(frame)?));
     Ok(model)
 }
 
@@ -339,6 +377,8 @@ fn finish(
         as_built: None,
         misfit: None,
         plan,
+        stiffened: None,
+        statics: None,
         assembly: None,
         jigs: None,
     })
@@ -355,6 +395,7 @@ fn built(
     let cutting = Cutting { overhang: design.overhang, round: design.round };
     let (frame, what) = as_built(&model.formed.frame, &measured.rows, cutting)
         .map_err(|e| BuildError::AsBuilt { file: measured.file.clone(), e })?;
+    model.formed.moves = moves(&model.formed.frame, &frame);
     model.formed.frame = frame;
     model.formed.closing.error = what.error;
     begin(Step::Measure);
@@ -362,6 +403,12 @@ fn built(
     begin(Step::Saw);
     model.plan = sawing_plan(design, &model.formed, &what.sawn)?;
     Ok(Model { as_built: Some(what), ..model })
+}
+
+/// How far each end of each rod moves from one frame to the other, mm.
+fn moves(from: &Frame, to: &Frame) -> Vec<f64> {
+    let of = |(old, new): (&Rod, &Rod)| [new.axis.a - old.axis.a, new.axis.b - old.axis.b];
+    from.rods.iter().zip(to.rods.iter()).flat_map(of).map(|by| by.norm()).collect()
 }
 
 /// Where units fail whose size and turn could not be fitted to the rods, says which rods

@@ -306,6 +306,7 @@ mod tests {
             paper,
             units: PaperUnits::Mm,
             density: 600.0,
+            sawn: Default::default(),
             notes,
             texts: Texts::built_in(Language::En).unwrap(),
         }

@@ -62,7 +62,9 @@ use crate::drawing::DrawingError;
 use crate::frame::Frame;
 use crate::frame::footprint::Footprint;
 use crate::frame::measure::Measures;
+use crate::ids::RodId;
 use crate::shop::{Assembly, CutPlan};
+use std::collections::BTreeSet;
 use text::message::Message;
 
 /// How the papers look.
@@ -76,6 +78,8 @@ pub struct SheetSettings {
     pub units: PaperUnits,
     /// Density of the rods, kg/m³.
     pub density: f64,
+    /// Rods that are sawn already.
+    pub sawn: BTreeSet<RodId>,
     /// Lines printed on the cover, such as the command that repeats the run.
     pub notes: Vec<String>,
     /// What is said on the papers, in their language.

@@ -17,7 +17,7 @@ messages! {
     mod say in "rod-cards.toml" {
         "title" => Title {}
         "range" => Range { first: String, last: String }
-        "cut" => Cut { length: String, diameter: String }
+        "cut" => Cut { length: String, diameter: String, sawn: bool }
         "class" => Class { name: String, count: usize }
         "strip-broken" => StripBroken {}
         "strip-full" => StripFull {}
@@ -140,7 +140,8 @@ impl<'a> Book<'a> {
             true => format.diameter(self.frame.rods[rod].diameters),
             false => String::new(),
         };
-        let cut = settings.say(say::Cut { length: format.measure(strip.length()), diameter })?;
+        let (length, sawn) = (format.measure(strip.length()), settings.sawn.contains(&rod));
+        let cut = settings.say(say::Cut { length, diameter, sawn })?;
         items.text([x, base], 5.0, cut.as_str()).bold();
         x += text_width(&cut, 5.0, Weight::Bold)? + 5.0;
         let class =

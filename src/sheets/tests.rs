@@ -18,7 +18,15 @@ static IGLOO: LazyLock<Frame> = LazyLock::new(|| LAID.0.clone());
 pub(super) fn settings(paper: Paper, units: PaperUnits) -> SheetSettings {
     let notes = vec!["rodwright build igloo.obj --rod 3mm".to_owned()];
     let texts = Texts::built_in(Language::En).unwrap();
-    SheetSettings { model: "igloo".to_owned(), paper, units, density: 600.0, notes, texts }
+    SheetSettings {
+        model: "igloo".to_owned(),
+        paper,
+        units,
+        density: 600.0,
+        sawn: BTreeSet::new(),
+        notes,
+        texts,
+    }
 }
 
 pub(super) fn cut_plan(frame: &Frame) -> CutPlan {

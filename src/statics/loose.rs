@@ -6,6 +6,7 @@
 
 use super::joint;
 use super::model::Model;
+use super::start::start;
 use super::system::{System, add_to, both};
 use crate::ids::{Id, RodId};
 use crate::linalg::LinalgError;
@@ -15,11 +16,15 @@ use thiserror::Error;
 
 /// σ: smaller and the shifted matrix may not factor, larger and more steps are needed.
 const SHIFT: f64 = 1e-10;
-/// Steps of inverse iteration.
-const STEPS: usize = 10;
-/// The quotient below which a mode counts as free: rounding leaves 1e-16; a frame of 20 000
-/// rods that is merely soft has 1e-11. Between them, so that neither is taken for the other.
+/// Steps of inverse iteration at most.
+const STEPS: usize = 20;
+/// A quotient has settled when it falls by less than this factor.
+const SETTLED: f64 = 0.9;
+/// The quotient below which a mode counts as free, or nearly so: of displacements in a softer
+/// structure rounding would leave less than three digits.
 const FREE: f64 = 1e-13;
+/// What rounding leaves of the quotient of a free mode.
+const ROUNDING: f64 = 1e-15;
 /// A rod is named when it moves by this share of the largest movement.
 const MOVES: f64 = 0.5;
 /// How many rods a message names.
@@ -28,8 +33,9 @@ const NAMED: usize = 8;
 /// Rods that move freely.
 #[derive(Error, Debug, Clone, PartialEq)]
 #[error(
-    "too few supports: {} can move freely, {} most: {:.0} mm from its end A it goes {}",
-    named(.rods), .most, .at, direction(.way)
+    "too few supports: {} can move {}freely, {} most: {:.0} mm from its end A it goes {}, and a foot \
+     there would help",
+    named(.rods), if *.nearly { "almost " } else { "" }, .most, .at, direction(.way)
 )]
 pub struct Loose {
     /// The rods that move most, in the order of their numbers.
@@ -40,6 +46,8 @@ pub struct Loose {
     pub at: f64,
     /// Which way it moves there, a unit vector; either way round.
     pub way: Vector3,
+    /// Whether it is not quite free.
+    pub nearly: bool,
 }
 
 /// A direction, either way round, in words of the ground and as a vector.
@@ -77,12 +85,9 @@ pub fn find_loose(model: &Model, system: &mut System) -> Result<Option<Loose>, L
         system.factor(|i| shift * diagonal[i])?;
     }
     let mode = lowest_mode(&diagonal, system);
-    let loose = energy(model, system, &mode) < FREE;
-    if !loose && shift > 0.0 {
-        // Stiff enough, and yet it cannot be factored: nearly singular.
-        system.factor(|_| 0.0)?;
-    }
-    Ok(loose.then(|| movers(model, &mode)))
+    let energy = energy(model, system, &mode);
+    let loose = energy < FREE || shift > 0.0;
+    Ok(loose.then(|| movers(model, &mode, energy > ROUNDING)))
 }
 
 /// The diagonal of the stiffness of the beams alone.
@@ -95,20 +100,27 @@ fn diagonal(system: &System) -> Vec<f64> {
 }
 
 /// The mode of least stiffness that inverse iteration finds with the system as it is
-/// factored; of unit length by D.
+/// factored; of unit length by D. It is found when the quotient, which falls from step to step,
+/// hardly does so any more.
 fn lowest_mode(diagonal: &[f64], system: &mut System) -> Vec<f64> {
-    // Uneven and the same every time: fractions of multiples of the golden ratio.
-    let start = |i: usize| (0.618_033_988_749_895 * (i + 1) as f64).fract() - 0.5;
-    let mut mode: Vec<f64> =
-        diagonal.iter().enumerate().map(|(i, d)| start(i) / d.sqrt()).collect();
+    let mut mode = start(diagonal.len());
+    mode.iter_mut().zip(diagonal).for_each(|(x, d)| *x /= d.sqrt());
+    let mut last = f64::INFINITY;
     for _ in 0..STEPS {
-        mode.iter_mut().zip(diagonal).for_each(|(x, d)| *x *= d);
+        let force: Vec<f64> = mode.iter().zip(diagonal).map(|(x, d)| x * d).collect();
+        mode.copy_from_slice(&force);
         system.solve(&mut mode);
-        let norm = mode.iter().zip(diagonal).map(|(x, d)| d * x * x).sum::<f64>().sqrt();
-        if norm == 0.0 {
+        let work: f64 = mode.iter().zip(&force).map(|(x, f)| x * f).sum();
+        let square: f64 = mode.iter().zip(diagonal).map(|(x, d)| d * x * x).sum();
+        if square == 0.0 {
             break;
         }
-        mode.iter_mut().for_each(|x| *x /= norm);
+        mode.iter_mut().for_each(|x| *x /= square.sqrt());
+        let quotient = (work / square).abs();
+        if quotient > SETTLED * last {
+            break;
+        }
+        last = quotient;
     }
     mode
 }
@@ -128,7 +140,7 @@ fn energy(model: &Model, system: &System, mode: &[f64]) -> f64 {
 }
 
 /// The rods that move in a mode: by displacement, or by a turn at their skin.
-fn movers(model: &Model, mode: &[f64]) -> Loose {
+fn movers(model: &Model, mode: &[f64], nearly: bool) -> Loose {
     let mut rods: BTreeMap<RodId, f64> = BTreeMap::new();
     let mut most = (0.0, RodId::new(0), 0, Vector3::z());
     for beam in &model.beams {
@@ -150,5 +162,5 @@ fn movers(model: &Model, mode: &[f64]) -> Loose {
     // Of both ways round, that which goes up, or along the first axis that it has a share of.
     let sign = [way.z, way.y, way.x].into_iter().find(|c| c.abs() > 0.005).unwrap_or(1.0);
     let way = way * sign.signum();
-    Loose { rods: moving, most: rod, at: model.from_end_a(rod, node), way }
+    Loose { rods: moving, most: rod, at: model.from_end_a(rod, node), way, nearly }
 }

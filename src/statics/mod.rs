@@ -6,6 +6,8 @@ pub mod beam;
 #[cfg(test)]
 pub(crate) mod fixture;
 pub mod framework;
+pub mod freedom;
+pub mod goal;
 pub mod joint;
 pub mod load;
 pub mod loose;
@@ -14,8 +16,10 @@ mod meshes;
 pub mod model;
 pub mod section;
 pub mod solve;
+mod start;
 pub mod stress;
 pub mod study;
 mod system;
 #[cfg(test)]
 mod tests;
+pub mod wish;

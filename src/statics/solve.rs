@@ -43,9 +43,13 @@ pub struct Response {
     pub joints: Vec<Vector6<f64>>,
 }
 
-/// How often a solution is refined. The first solution has lost the digits by which contacts
-/// are stiffer than rods; each round wins back more than it lost.
-const ROUNDS: usize = 3;
+/// How often a solution is refined at most. The first solution has lost the digits by which
+/// contacts are stiffer than rods, and those that a soft frame costs; each round wins some back.
+const ROUNDS: usize = 12;
+/// A correction smaller than this part of the displacements is rounding.
+const ROUNDING: f64 = 1e-15;
+/// Corrections that shrink by less than this factor win nothing back any more.
+const SHRINK: f64 = 0.5;
 
 /// Displacements, and the forces in the springs of the contacts, which cannot be had from
 /// them without loss: in a stiff spring they come of a small difference.
@@ -75,15 +79,21 @@ impl<'a> Solver<'a> {
             moved: vec![0.0; given.len()],
             joints: vec![Vector6::zeros(); model.joints.len()],
         };
+        let mut last = f64::INFINITY;
         for _ in 0..ROUNDS {
-            self.refine(&given, &mut found);
+            let correction = self.refine(&given, &mut found);
+            if correction <= ROUNDING || correction > SHRINK * last {
+                break;
+            }
+            last = correction;
         }
         self.response(&found, &given, load)
     }
 
     /// One round: with u and the forces λ of the springs D, and what of both is missing,
-    /// B δ + Aᵀμ = f − B u − Aᵀλ and D A δ − μ = λ − D A u, of which μ is eliminated.
-    fn refine(&mut self, given: &[f64], found: &mut Solution) {
+    /// B δ + Aᵀμ = f − B u − Aᵀλ and D A δ − μ = λ − D A u, of which μ is eliminated. Returns the
+    /// largest correction as part of the largest displacement or rotation.
+    fn refine(&mut self, given: &[f64], found: &mut Solution) -> f64 {
         let model = self.model;
         let nodes = &model.nodes;
         let mut rest = given.to_vec();
@@ -101,6 +111,11 @@ impl<'a> Solver<'a> {
             *force += joint::force(joint, nodes, &both(&rest, joint.nodes)) - missing;
         }
         found.moved.iter_mut().zip(&rest).for_each(|(u, more)| *u += more);
+        let largest = |of: &[f64]| of.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+        match largest(&found.moved) {
+            0.0 => 0.0,
+            size => largest(&rest) / size,
+        }
     }
 
     /// Forces on the nodes, those of even loads on beams among them.

@@ -39,6 +39,8 @@ pub struct Combination {
 pub struct Question {
     /// What the frame is taken for.
     pub taken: Assumptions,
+    /// What its material is called.
+    pub material: String,
     /// Forces on rods.
     pub points: Vec<PointLoad>,
     /// Vertical load on the area in plan, MPa.
@@ -151,32 +153,44 @@ impl Study {
         &self.framework.model
     }
 
-    /// For each rod the case and place of its largest utilisation.
-    pub fn worst(&self) -> Vec<Largest> {
-        let rods = self.framework.rods.len();
-        let worst = |i: usize| {
-            let of = |(case, solved): (usize, &Case)| {
-                let RodPeak { rod, at, utilisation, .. } = solved.rods[i];
-                Largest { case, rod, at, value: utilisation }
-            };
-            self.cases.iter().enumerate().map(of).reduce(larger)
-        };
-        (0..rods).filter_map(worst).collect()
+    /// The largest utilisation of each rod in a case.
+    pub fn stresses(&self, case: usize) -> Vec<Largest> {
+        let of = |p: &RodPeak| Largest { case, rod: p.rod, at: p.at, value: p.utilisation };
+        self.cases[case].rods.iter().map(of).collect()
     }
 
-    /// The largest displacement of each rod at its nodes, mm.
-    pub fn displacements(&self) -> Vec<Largest> {
+    /// The largest displacement of each rod in a case, at its nodes, mm.
+    pub fn moves(&self, case: usize) -> Vec<Largest> {
+        let moved = &self.cases[case].response.moved;
         let of = |(rod, nodes): (RodId, &Vec<(f64, usize)>)| {
-            let places = self.cases.iter().enumerate().flat_map(|(case, solved)| {
-                let moved = &solved.response.moved;
-                nodes.iter().map(move |&(at, node)| {
-                    let value = moved[node].fixed_rows::<3>(0).norm();
-                    Largest { case, rod, at, value }
-                })
-            });
-            places.reduce(larger)
+            let at_node = |&(at, node): &(f64, usize)| Largest {
+                case,
+                rod,
+                at,
+                value: moved[node].fixed_rows::<3>(0).norm(),
+            };
+            nodes.iter().map(at_node).reduce(Largest::larger)
         };
         self.framework.rods.enumerate().filter_map(of).collect()
+    }
+
+    /// For each rod the case and place of its largest utilisation.
+    pub fn worst(&self) -> Vec<Largest> {
+        self.over_cases(Self::stresses)
+    }
+
+    /// For each rod the case and place of its largest displacement, mm.
+    pub fn displacements(&self) -> Vec<Largest> {
+        self.over_cases(Self::moves)
+    }
+
+    /// The larger one of each rod, of all cases.
+    fn over_cases(&self, of: impl Fn(&Self, usize) -> Vec<Largest>) -> Vec<Largest> {
+        let cases = (0..self.cases.len()).map(|case| of(self, case));
+        let larger = |a: Vec<Largest>, b: Vec<Largest>| {
+            a.into_iter().zip(b).map(|(a, b)| a.larger(b)).collect()
+        };
+        cases.reduce(larger).unwrap_or_default()
     }
 
     /// The contacts that pull in some case, with the largest pull of each, N.
@@ -199,8 +213,11 @@ impl Study {
 /// See [`Study::slight`].
 const SLIGHT: f64 = 1e-9;
 
-fn larger(a: Largest, b: Largest) -> Largest {
-    if b.value > a.value { b } else { a }
+impl Largest {
+    /// The larger of two; of two alike the first.
+    pub fn larger(self, other: Self) -> Self {
+        if other.value > self.value { other } else { self }
+    }
 }
 
 impl Case {

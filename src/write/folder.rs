@@ -35,7 +35,7 @@
 mod manifest;
 mod work;
 
-use manifest::{MANIFEST, Verdict, verdict};
+use manifest::{MANIFEST, Manifest, Verdict, verdict};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
@@ -180,6 +180,34 @@ impl OutputFolder {
             try_to_write(parent)?;
         }
         Ok(folder)
+    }
+
+    /// Opens a folder that stands, to change files of it. Those on its list stay in it as they
+    /// are unless they are replaced; files of the user move along.
+    ///
+    /// # Errors
+    /// [`FolderError`]: it is none of ours, or may not be written to.
+    pub fn open(path: &Path) -> Result<Self, FolderError> {
+        let mut folder = Self::prepare(path, true)?;
+        let Some(manifest) = Manifest::read(path)? else {
+            return Err(FolderError::Foreign { path: folder.path });
+        };
+        folder.files = manifest.unchanged(path)?;
+        Ok(folder)
+    }
+
+    /// A file that is to stand in the folder, as far as it is known.
+    pub fn file(&self, name: &str) -> Option<&[u8]> {
+        self.files.get(name).map(Vec::as_slice)
+    }
+
+    /// Adds a file, or takes the place of one.
+    ///
+    /// # Errors
+    /// [`FolderError::FileName`].
+    pub fn replace(&mut self, name: String, bytes: Vec<u8>) -> Result<(), FolderError> {
+        self.files.remove(&name);
+        self.add(name, bytes)
     }
 
     /// Where the folder will stand.

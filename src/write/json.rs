@@ -53,6 +53,18 @@ impl Document {
         Ok(())
     }
 
+    /// Adds a key whose value is a list of other objects, laid out the same way.
+    ///
+    /// # Errors
+    /// What serde says of the key.
+    pub fn nested_list(&mut self, key: &str, list: Vec<Self>) -> Result<(), serde_json::Error> {
+        self.key(key)?;
+        let list: Vec<String> =
+            list.into_iter().map(|inner| inner.finish().trim_end().to_owned()).collect();
+        self.text += &format!("[{}]", list.join(", "));
+        Ok(())
+    }
+
     /// The text of the object.
     pub fn finish(mut self) -> String {
         self.text += "\n}\n";

@@ -15,6 +15,7 @@ pub mod ply;
 pub mod report;
 mod rod_shape;
 pub mod rods;
+pub mod statics;
 pub mod stl;
 pub mod structure;
 pub mod tables;

@@ -16,6 +16,7 @@ use crate::frame::tolerance::{Misfit, TRIALS, UnitOff};
 use crate::ids::RodId;
 use crate::shop::saw::{Aim, CutPlan};
 use crate::shop::{Assembly, JigError, Jigs};
+use crate::write::statics::{StaticsFigures, StiffenedFigures};
 use serde::Serialize;
 
 /// The report of a run.
@@ -48,6 +49,12 @@ pub struct Report {
     /// What errors of marks and diameters do, if that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<Tolerances>,
+    /// What became of its turn, slide and tile edge, if it was stiffened.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stiffened: Option<StiffenedFigures>,
+    /// Its stresses, or why it does not stand, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub statics: Option<StaticsFigures>,
     /// What a laser cuts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub jigs: Option<JigFigures>,

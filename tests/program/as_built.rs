@@ -83,6 +83,24 @@ fn one_mark_that_slipped_is_held_and_the_sticks_to_mark_again_are_named() {
 
     let what = &report(dir.path(), "out")["as_built"];
     assert_eq!((&what["sawn"], &what["marks"]), (&serde_json::json!(["R012"]), &2.into()));
+    // Its card says so; the moves are those from the plan.
+    let papers = ["build", &sample("igloo.obj"), "--only", "sheets", "--as-built", "m.csv", "-q"];
+    rodwright(dir.path()).args(papers).args(["-o", "papers"]).assert().success();
+    let cards = snapshot(&dir.path().join("papers/sheets"));
+    let cards: String = cards.values().map(|bytes| String::from_utf8_lossy(bytes)).collect();
+    assert_eq!(cards.matches("sawn already, ").count(), 1);
+    let moves = |out: &str| report(dir.path(), out)["measures"]["moves"]["max"].as_f64().unwrap();
+    let shift = |p: &serde_json::Value, q: &serde_json::Value| {
+        let by = (0..3).map(|i| p[i].as_f64().unwrap() - q[i].as_f64().unwrap());
+        by.map(|d| d * d).sum::<f64>().sqrt()
+    };
+    let rods = |s: &serde_json::Value| s["rods"].as_array().unwrap().clone();
+    let most = rods(&plan)
+        .iter()
+        .zip(&rods(&s))
+        .flat_map(|(p, q)| ["a", "b"].map(|end| shift(&p[end], &q[end])))
+        .fold(0.0, f64::max);
+    assert!((moves("out") - most / 3.0).abs() < 1e-9, "{most} {}", moves("out"));
     assert!(what["deviation"].as_f64().unwrap() < 1e-9, "{what}");
     assert!(what["worst_gap"].as_f64().unwrap() < 1e-9, "{what}");
     // What is told of other sticks is what the files say.

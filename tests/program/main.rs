@@ -18,6 +18,7 @@ mod run;
 mod samples;
 mod sawing;
 mod sizes;
+mod statics;
 mod strips;
 mod tiles;
 mod tolerance;

@@ -12,7 +12,15 @@ use clap::ValueEnum;
 fn settings(paper: Paper, units: PaperUnits) -> SheetSettings {
     let model = "a model of a rather long name that no label holds in full".to_owned();
     let texts = Texts::built_in(Language::En).unwrap();
-    SheetSettings { model, paper, units, density: 600.0, notes: Vec::new(), texts }
+    SheetSettings {
+        model,
+        paper,
+        units,
+        density: 600.0,
+        sawn: Default::default(),
+        notes: Vec::new(),
+        texts,
+    }
 }
 
 /// Frames with short and long numbers, lengths and diameters.

@@ -136,7 +136,7 @@ impl Cards<'_> {
     fn rod(&self, id: RodId, step: Option<usize>) -> Result<RodData, TextError> {
         let (settings, format) = (self.settings, self.settings.format());
         let (rod, class) = (&self.frame.rods[id], self.classes.of(id));
-        let length = format.measure(rod.axis.length());
+        let (length, sawn) = (format.measure(rod.axis.length()), settings.sawn.contains(&id));
         let diameter = format.diameter(rod.diameters);
         let (name, count) = (class.name.clone(), class.rods.len());
         let placed = |n: usize| settings.say(say::Placed { step: n + 1 });
@@ -146,7 +146,7 @@ impl Cards<'_> {
             a: point(&rod.axis.a),
             b: point(&rod.axis.b),
             d: rod.diameters.map(hundredths),
-            cut: settings.say(rod_cards::say::Cut { length, diameter: String::new() })?,
+            cut: settings.say(rod_cards::say::Cut { length, diameter: String::new(), sawn })?,
             diameter: settings.say(say::Diameter { diameter })?,
             class: settings.say(rod_cards::say::Class { name, count })?,
             k: self.classes.iter().position(|c| c.name == class.name).unwrap_or(0),

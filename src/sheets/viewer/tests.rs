@@ -12,6 +12,7 @@ fn settings(language: Language, units: PaperUnits) -> SheetSettings {
         paper: Paper::default(),
         units,
         density: 600.0,
+        sawn: Default::default(),
         notes: Vec::new(),
         texts: Texts::built_in(language).unwrap(),
     }

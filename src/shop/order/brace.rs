@@ -1,6 +1,5 @@
 //! Sets props where rods could move, and takes them away when they are not needed any more.
 
-use super::freedom::{Motion, Pose, Row, contact_rows, loose};
 use super::props::{places, prop};
 use super::rests::{anchor, rests};
 use super::site::Site;
@@ -9,6 +8,7 @@ use super::{Order, Prop, Step};
 use crate::frame::Frame;
 use crate::ids::{Id, IdVec, PropId, RodId};
 use crate::linalg::LinalgError;
+use crate::statics::freedom::{Motion, Pose, Row, contact_rows, loose};
 use std::collections::BTreeSet;
 
 /// Placed rods up to so many are checked as a whole after every step of a crown.

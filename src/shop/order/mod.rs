@@ -4,7 +4,7 @@
 //! `crown` order they come in rings round the middle: the frame lies on the table, and rises
 //! as rings are added. In `ground` order they come in rows from the feet up, and props hold
 //! what would move. After each step every placed rod is held by at least two contacts, feet
-//! or props, and nothing can move (see [`freedom`]).
+//! or props, and nothing can move (see [`freedom`](crate::statics::freedom)).
 //!
 //! It is greedy: of the units of a ring that one comes next which has the fewest rods to be
 //! slid under others, and leads to one like it; see [`choose`].
@@ -13,11 +13,12 @@ mod batch;
 mod brace;
 mod checks;
 mod choose;
-pub mod freedom;
 mod lay;
 mod neighbors;
 mod props;
 mod rests;
+#[cfg(test)]
+mod rests_tests;
 mod site;
 mod topple;
 

@@ -1,10 +1,10 @@
 //! What rods rest on besides each other: the table, and the ground.
 
 use super::Order;
-use super::freedom::{Pose, Row};
 use super::site::Site;
 use crate::frame::{End, Frame};
 use crate::ids::{IdVec, RodId};
+use crate::statics::freedom::{Pose, Row};
 use crate::surface::Vector3;
 
 /// Sine of the most that a free end may point upwards and yet lie on the table: 12°. Ends on

@@ -3,8 +3,8 @@
 use super::*;
 use crate::ids::IdVec;
 use crate::shop::fixture;
+use crate::statics::freedom::{Pose, Row, contact_rows, loose};
 use crate::surface::hull::{convex_hull, depth_in};
-use freedom::{Pose, Row, contact_rows, loose};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;

@@ -32,7 +32,7 @@ impl Manifest {
     }
 
     /// Reads the list of a folder; `None` where there is none of ours.
-    fn read(folder: &Path) -> Result<Option<Self>, FolderError> {
+    pub fn read(folder: &Path) -> Result<Option<Self>, FolderError> {
         let path = folder.join(MANIFEST);
         let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
@@ -59,6 +59,23 @@ impl Manifest {
         let path = folder.join(name);
         let bytes = fs::read(&path).map_err(FolderError::io(&path))?;
         Ok(fingerprint(&bytes) == *print)
+    }
+
+    /// The files of the list that stand in the folder as they were written.
+    pub fn unchanged(&self, folder: &Path) -> Result<BTreeMap<String, Vec<u8>>, FolderError> {
+        let mut files = BTreeMap::new();
+        for (name, print) in &self.files {
+            let path = folder.join(name);
+            match fs::read(&path) {
+                Ok(bytes) if fingerprint(&bytes) == *print => {
+                    drop(files.insert(name.clone(), bytes))
+                }
+                Ok(_) => {}
+                Err(e) if e.kind() == io::ErrorKind::NotFound => {}
+                Err(e) => return Err(FolderError::io(&path)(e)),
+            }
+        }
+        Ok(files)
     }
 
     /// All folders above the files of the list.

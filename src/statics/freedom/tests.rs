@@ -5,9 +5,6 @@ use crate::frame::End;
 use crate::frame::axis::Axis;
 use crate::ids::Id;
 use crate::shop::fixture;
-use crate::shop::order::Order;
-use crate::shop::order::rests::{anchor, rests};
-use crate::shop::order::site::Site;
 use nalgebra::{DMatrix, DVector, Rotation3};
 
 /// Rows as a matrix of five columns a rod.
@@ -158,56 +155,6 @@ fn ends_that_meet_are_held_by_a_sleeve() {
         // Of a straight pair, turning about itself is no motion.
         assert_eq!(motions(2, &rows), rest, "{angle}");
     }
-}
-
-/// A unit with all its rods placed in order.
-fn placed(frame: &Frame, order: Order) -> Site<'_> {
-    let mut site = Site::new(frame, order);
-    frame.rods.ids().for_each(|rod| site.place(rod));
-    site
-}
-
-#[test]
-fn a_triangle_is_held_by_itself_and_loose_without_a_contact() {
-    let frame = fixture::circuit(3, 3.0);
-    let rods: Vec<RodId> = frame.rods.ids().collect();
-    let (site, poses) = (placed(&frame, Order::Crown), Pose::all(&frame));
-    let is_loose = |without: &[usize]| {
-        let mut rows = contacts(&frame, without);
-        rows.extend(anchor(&site, &poses));
-        loose(&rods, &rows).unwrap().is_some()
-    };
-    assert!(!is_loose(&[]));
-    (0..3).for_each(|c| assert!(is_loose(&[c])));
-}
-
-#[test]
-fn larger_units_are_held_by_the_table() {
-    for n in 4..=8 {
-        let frame = fixture::circuit(n, 3.0);
-        let rods: Vec<RodId> = frame.rods.ids().collect();
-        let (site, poses) = (placed(&frame, Order::Crown), Pose::all(&frame));
-        let mut rows = contacts(&frame, &[]);
-        rows.extend(anchor(&site, &poses));
-        assert!(loose(&rods, &rows).unwrap().is_some(), "{n}");
-        rows.extend(rods.iter().flat_map(|&rod| rests(&site, &poses, rod)));
-        assert!(loose(&rods, &rows).unwrap().is_none(), "{n}");
-    }
-}
-
-#[test]
-fn a_unit_on_its_feet_is_held_until_a_foot_goes() {
-    let frame = fixture::circuit(4, 3.0);
-    let rods: Vec<RodId> = frame.rods.ids().collect();
-    let (site, poses) = (placed(&frame, Order::Ground), Pose::all(&frame));
-    let feet = |without: usize| {
-        let standing = rods.iter().skip(without);
-        let mut rows: Vec<Row> = standing.flat_map(|&rod| poses[rod].held(rod, 0.0)).collect();
-        rows.extend(contacts(&frame, &[]));
-        loose(&rods, &rows).unwrap().is_some()
-    };
-    assert_eq!([0, 2, 3, 4].map(feet), [false, true, true, true]);
-    assert_eq!(rests(&site, &poses, rods[0]).len(), 3);
 }
 
 #[test]

@@ -11,6 +11,7 @@
 //! it, if they are so against it. Strength is not looked at: a frame that cannot move may
 //! still bend under its weight.
 
+use super::start::start;
 use crate::frame::{Contact, ContactKind, Frame};
 use crate::ids::{ContactId, IdVec, RodId};
 use crate::linalg::{BlockSolver, LinalgError, LowerPattern};
@@ -207,6 +208,8 @@ pub fn loose(rods: &[RodId], rows: &[Row]) -> Result<Option<Motion>, LinalgError
     let base = SMatrix::<f64, FREEDOMS, FREEDOMS>::identity() * BASE;
     (0..rods.len()).for_each(|i| solver.add(i, i, &base));
     let mut motion = start(FREEDOMS * rods.len());
+    let length = norm(&motion);
+    motion.iter_mut().for_each(|x| *x /= length);
     if solver.factor().is_err() {
         // Rounding was more than the base: there is a motion; where, is not known.
         return Ok(Some(spread(rods, &motion)));
@@ -218,16 +221,6 @@ pub fn loose(rods: &[RodId], rows: &[Row]) -> Result<Option<Motion>, LinalgError
         motion.iter_mut().for_each(|x| *x *= looseness);
     }
     Ok((looseness < SLACK * SLACK).then(|| spread(rods, &motion)))
-}
-
-/// A vector of length one without any symmetry.
-fn start(size: usize) -> Vec<f64> {
-    // Multiples of the golden ratio fill the interval evenly.
-    let golden = 0.618_033_988_749_894_9;
-    let mut x: Vec<f64> = (1..=size).map(|i| (i as f64 * golden).fract() - 0.5).collect();
-    let length = norm(&x);
-    x.iter_mut().for_each(|x| *x /= length);
-    x
 }
 
 fn norm(x: &[f64]) -> f64 {
