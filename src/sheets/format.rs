@@ -170,6 +170,13 @@ impl Format {
         self.fixed(x, decimals.clamp(0.0, 6.0) as usize)
     }
 
+    /// A factor with four digits at most: `10`, `16.67`.
+    pub fn factor(self, x: f64) -> String {
+        let decimals = if x == 0.0 { 0.0 } else { 3.0 - x.abs().log10().floor() };
+        let power = 10f64.powf(decimals.clamp(0.0, 6.0));
+        self.plain((x * power).round() / power)
+    }
+
     /// A share in per cent to three digits: where it may be very small.
     pub fn share(self, share: f64) -> String {
         format!("{} %", self.three_digits(100.0 * share))

@@ -26,6 +26,7 @@ pub(crate) fn question(frame: &Frame, scale: f64) -> Question {
             feet: Feet::Pinned,
             scale,
         },
+        material: "pine".to_owned(),
         points: vec![PointLoad {
             rod,
             at: frame.rods[rod].axis.length() / 3.0,

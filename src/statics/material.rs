@@ -30,11 +30,6 @@ impl Material {
         self.density * GRAVITY * 1e-9
     }
 
-    /// Its name, if it is one of the table.
-    pub fn name(&self) -> Option<&'static str> {
-        TABLE.iter().find(|(_, known)| known == self).map(|(name, _)| *name)
-    }
-
     /// One of the table by its name.
     pub fn named(name: &str) -> Option<Self> {
         TABLE.iter().find(|(known, _)| *known == name).map(|(_, material)| *material)

@@ -157,7 +157,7 @@ pub(super) fn hottest(subject: &Subject) -> Result<String, TextError> {
 
 /// What lengths are, where they are not those of the model.
 pub(super) fn size(subject: &Subject) -> Result<Option<String>, TextError> {
-    let scale = subject.format().plain(subject.scale());
+    let scale = subject.format().factor(subject.scale());
     let said = (subject.scale() != 1.0).then(|| subject.settings.say(say::Size { scale }));
     said.transpose()
 }

@@ -4,7 +4,7 @@ use super::Subject;
 use super::marks::NAMED;
 use super::pictures::{hottest, size};
 use crate::sheets::SheetError;
-use crate::sheets::page::{Column, Flow, Leaf, Table};
+use crate::sheets::page::{self, Column, Flow, Leaf, Table};
 use crate::sheets::text::TextError;
 use crate::sheets::text::message::messages;
 use crate::statics::study::{Case, Largest};
@@ -108,7 +108,7 @@ fn taken(subject: &Subject) -> Result<Table, TextError> {
     let (feet, own) = (subject.study.model().feet.len(), subject.study.own_feet);
     let figure = |x: f64| format.three_digits(x);
     let material = say::MaterialIs {
-        name: material.name().unwrap_or_default().to_owned(),
+        name: page::printable(&question.material),
         young: figure(material.young),
         shear: figure(material.shear),
         density: figure(material.density),
@@ -130,7 +130,7 @@ fn taken(subject: &Subject) -> Result<Table, TextError> {
         ],
         [
             settings.say(say::StudiedSize {})?,
-            settings.say(say::StudiedSizeIs { scale: format.plain(taken.scale) })?,
+            settings.say(say::StudiedSizeIs { scale: format.factor(taken.scale) })?,
         ],
     ];
     if question.pressure != 0.0 {
@@ -162,13 +162,14 @@ fn cases(subject: &Subject) -> Result<Table, TextError> {
     let row = |(i, case): (usize, &Case)| {
         let c = &case.combination;
         let [weight, area, points] =
-            [c.weight, c.area, c.points].map(|factor| format.plain(factor));
+            [c.weight, c.area, c.points].map(|factor| format.factor(factor));
         let mut row = vec![
             subject.case(i),
             settings.say(say::Factors { weight, area, points })?,
             format.three_digits(case.load.total(study.model()).norm()),
         ];
-        let (used, moved) = (used_in(i, case), moved_in(subject, i, case));
+        let [used, moved] =
+            [study.stresses(i), study.moves(i)].map(|all| all.into_iter().reduce(Largest::larger));
         for (largest, value) in [
             (used, used.map(|l| format.share(l.value))),
             (moved, moved.map(|l| format.small(l.value))),
@@ -195,32 +196,6 @@ fn cases(subject: &Subject) -> Result<Table, TextError> {
         ],
         rows: study.cases.iter().enumerate().map(row).collect::<Result<_, TextError>>()?,
     })
-}
-
-/// The largest utilisation in a case.
-fn used_in(i: usize, case: &Case) -> Option<Largest> {
-    let of = |rod: &crate::statics::stress::RodPeak| Largest {
-        case: i,
-        rod: rod.rod,
-        at: rod.at,
-        value: rod.utilisation,
-    };
-    case.rods.iter().map(of).reduce(larger)
-}
-
-/// The largest displacement in a case.
-fn moved_in(subject: &Subject, i: usize, case: &Case) -> Option<Largest> {
-    let rods = subject.study.framework.rods.enumerate();
-    let nodes = rods.flat_map(|(rod, nodes)| nodes.iter().map(move |&(at, node)| (rod, at, node)));
-    let of = |(rod, at, node): (_, _, usize)| {
-        let value = case.response.moved[node].fixed_rows::<3>(0).norm();
-        Largest { case: i, rod, at, value }
-    };
-    nodes.map(of).reduce(larger)
-}
-
-fn larger(a: Largest, b: Largest) -> Largest {
-    if b.value > a.value { b } else { a }
 }
 
 fn most_used(subject: &Subject) -> Result<Table, TextError> {

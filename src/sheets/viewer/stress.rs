@@ -59,7 +59,7 @@ fn data(study: &Study, settings: &SheetSettings) -> Result<StressData, TextError
     };
     let title = say::StressTitle {
         stress: format.three_digits(largest * taken.material.strength),
-        scale: format.plain(taken.scale),
+        scale: format.factor(taken.scale),
     };
     let one = Rods { figures: &figures, stretches: &stretches, largest, study, settings };
     Ok(StressData {
