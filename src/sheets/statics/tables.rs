@@ -187,7 +187,7 @@ fn cases(subject: &Subject) -> Result<Table, TextError> {
     Ok(Table {
         columns: vec![
             head(settings.say(say::CaseHead {}))?,
-            head(settings.say(say::CaseOf {}))?,
+            Column::wrapped(settings.say(say::CaseOf {})?),
             Column::figure(settings.say(say::Total {})?),
             Column::figure(settings.say(say::Used {})?),
             at()?,
