@@ -14,3 +14,10 @@ pub(super) fn number(x: f64) -> String {
     let short = x.to_string();
     if short.len() <= WIDTH { short } else { format!("{x:.12e}") }
 }
+
+/// A number with all its digits: the stiffness of a notch stands in a matrix beside one that is
+/// ten thousand times as large, of which it is the difference.
+pub(super) fn exact(x: f64) -> String {
+    let short = x.to_string();
+    if short.len() <= WIDTH { short } else { format!("{x:e}") }
+}

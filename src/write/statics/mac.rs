@@ -7,7 +7,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::deck::{line, number};
+use super::deck::{exact, line};
 use crate::ids::RodId;
 use crate::statics::joint;
 use crate::statics::model::{Beam, Model};
@@ -51,7 +51,7 @@ pub fn ansys(study: &Study) -> String {
 }
 
 fn numbers(of: &Vector3) -> String {
-    of.iter().map(|x| number(*x)).collect::<Vec<_>>().join(",")
+    of.iter().map(|x| exact(*x)).collect::<Vec<_>>().join(",")
 }
 
 fn head(study: &Study) -> String {
@@ -82,9 +82,9 @@ KEYOPT,2,3,4                 ! a stiffness, symmetric
 fn add_material(text: &mut String, model: &Model) -> BTreeMap<u64, usize> {
     let m = &model.material;
     line(text, "! Young's modulus, Poisson's ratio, shear modulus (MPa), density (t/mm3)");
-    line(text, format!("MP,EX,1,{}\nMP,PRXY,1,{}", number(m.young), number(m.poisson)));
-    line(text, format!("MP,GXY,1,{0}\nMP,GXZ,1,{0}", number(m.shear)));
-    line(text, format!("MP,DENS,1,{}", number(m.density * 1e-12)));
+    line(text, format!("MP,EX,1,{}\nMP,PRXY,1,{}", exact(m.young), exact(m.poisson)));
+    line(text, format!("MP,GXY,1,{0}\nMP,GXZ,1,{0}", exact(m.shear)));
+    line(text, format!("MP,DENS,1,{}", exact(m.density * 1e-12)));
     let mut sections = BTreeMap::new();
     for beam in &model.beams {
         let section = beam.section;
@@ -93,8 +93,8 @@ fn add_material(text: &mut String, model: &Model) -> BTreeMap<u64, usize> {
             continue;
         }
         sections.insert(section.diameter.to_bits(), next);
-        let shear = number(m.shear * section.shear_area(m.poisson));
-        let (d, radius) = (number(section.diameter), number(section.diameter / 2.0));
+        let shear = exact(m.shear * section.shear_area(m.poisson));
+        let (d, radius) = (exact(section.diameter), exact(section.diameter / 2.0));
         line(text, format!("! Diameter {d} mm: the radius; shear stiffness by Cowper, N"));
         line(text, format!("SECTYPE,{next},BEAM,CSOLID\nSECDATA,{radius},16,4"));
         line(text, format!("SECCONTROL,{shear},{shear}"));
@@ -146,7 +146,7 @@ fn add_contacts(text: &mut String, model: &Model) {
         let (set, element) = (i + 1, model.beams.len() + i + 1);
         let k = joint::stiffness(of, &model.nodes);
         let upper = (0..12).flat_map(|row| (row..12).map(move |column| (row, column)));
-        let constants: Vec<String> = upper.map(|at| number(k[at])).collect();
+        let constants: Vec<String> = upper.map(|at| exact(k[at])).collect();
         for (n, six) in constants.chunks(AT_ONCE).enumerate() {
             let command = if n == 0 { format!("R,{set}") } else { "RMORE".into() };
             line(text, format!("{command},{}", six.join(",")));
@@ -171,11 +171,11 @@ fn add_case(
     text: &mut String,
     model: &Model,
     turned: &BTreeMap<RodId, [Vector3; 3]>,
-    number_of: usize,
+    which: usize,
     case: &Case,
 ) {
     let c = &case.combination;
-    line(text, format!("! Case {number_of}: {}", c.name));
+    line(text, format!("! Case {which}: {}", c.name));
     line(
         text,
         format!(
@@ -183,10 +183,10 @@ fn add_case(
             c.weight, c.area, c.points
         ),
     );
-    line(text, format!("TIME,{number_of}\nFDELE,ALL,ALL\nSFEDELE,ALL,ALL,ALL"));
+    line(text, format!("TIME,{which}\nFDELE,ALL,ALL\nSFEDELE,ALL,ALL,ALL"));
     for (i, six) in case.load.nodes.iter().enumerate() {
         for (label, value) in FORCES.iter().zip(six).filter(|(_, v)| **v != 0.0) {
-            line(text, format!("F,{},{label},{}", i + 1, number(*value)));
+            line(text, format!("F,{},{label},{}", i + 1, exact(*value)));
         }
     }
     line(text, "! Even loads, N/mm: face 1 presses against z, 2 against y, 3 along x of the beam");
@@ -194,7 +194,7 @@ fn add_case(
         let [x, y, z] = turned[&beam.rod];
         let faces = [(1, -q.dot(&z)), (2, -q.dot(&y)), (3, q.dot(&x))];
         for (face, pressure) in faces.into_iter().filter(|(_, p)| *p != 0.0) {
-            line(text, format!("SFBEAM,{},{face},PRES,{}", i + 1, number(pressure)));
+            line(text, format!("SFBEAM,{},{face},PRES,{}", i + 1, exact(pressure)));
         }
     }
     line(text, "SOLVE");
