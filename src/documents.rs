@@ -3,15 +3,16 @@
 use crate::design::{Design, Part};
 use crate::drawing::pdf::{self, DocumentInfo, Page};
 use crate::drawing::{Drawing, DrawingError, dxf, svg};
+use crate::frame::Frame;
 use crate::frame::arrangement::arrangement;
 use crate::pipeline::{Model, Stiffened, Tried};
 use crate::sheets::labels::labels;
-use crate::sheets::viewer::viewer;
+use crate::sheets::viewer::{viewer, with_stress};
 use crate::sheets::{Document, LaserProfile, TextError, document_title, handout, jigs, notes};
 use crate::sheets::{
     Sheet, SheetError, SheetSettings, footprint, histogram_pairs, histograms, relaxing_pairs,
 };
-use crate::sheets::{pictures, sheets, step_sheets, support_map};
+use crate::sheets::{pictures, sheets, statics_sheets, step_sheets, support_map};
 use crate::shop::Jigs;
 use crate::shop::lengths::classes;
 use crate::statics::study::Study;
@@ -19,9 +20,12 @@ use crate::write::assembly::assembly_json;
 use crate::write::cutlist::{cutlist_csv, cutlist_json};
 use crate::write::glb::{GlbError, assembly_glb, glb};
 use crate::write::report::{self, Report};
+use crate::write::statics::inp::calculix;
+use crate::write::statics::mac::ansys;
 use crate::write::statics::{StiffenedFigures, TriedFigures, statics_figures, statics_json};
 use crate::write::structure::{Structure, StructureFault};
 use crate::write::tables::{self, TableError};
+use std::collections::BTreeSet;
 use thiserror::Error;
 
 /// A file of the output folder: its path inside, and its bytes.
@@ -39,12 +43,13 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
     stock.sort_by(|a, b| b.total_cmp(a));
     stock.dedup();
     let order = model.assembly.as_ref().map(|assembly| assembly.order);
+    let study = model.statics.as_ref().and_then(|found| found.as_ref().ok());
     let mut files = Files::default();
     files.add("structure.json", structure.to_json()?);
     files.add("report.json", report(design, model).to_json()?);
     files.add("design.toml", design.to_toml(&model.fit, &stock, order));
     if design.wants(Part::Csv) {
-        files.add("rods.csv", tables::rods(frame, &classes, None)?);
+        files.add("rods.csv", tables::rods(frame, &classes, study)?);
         files.add("contacts.csv", tables::contacts(frame)?);
         files.add("supports.csv", tables::supports(frame)?);
         if let Some(misfit) = &model.misfit {
@@ -62,11 +67,11 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
         }
     }
     if design.wants(Part::Glb) {
-        files.add("model.glb", glb(&structure, None)?);
+        files.add("model.glb", glb(&structure, study)?);
     }
     if design.wants(Part::Viewer) {
         let settings = sheet_settings(design, model)?;
-        files.add("viewer.html", viewer(frame, model.assembly.as_ref(), None, &settings)?);
+        files.add("viewer.html", viewer(frame, model.assembly.as_ref(), study, &settings)?);
     }
     if design.wants(Part::Sheets) {
         add_sheets(design, model, &mut files)?;
@@ -91,8 +96,8 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
         let sheet = footprint::drawing(plane, &sheet_settings(design, model)?)?;
         files.add("footprint.svg", svg::render(&sheet)?);
     }
-    if let (Some(Ok(study)), true) = (&model.statics, design.wants(Part::Statics)) {
-        files.0.extend(statics_files(design, study)?);
+    if let (Some(study), true) = (study, design.wants(Part::Statics)) {
+        add_statics(design, frame, study, &mut files)?;
     }
     if let Some(Ok(jigs)) = &model.jigs {
         add_jigs(jigs, design.laser, &mut files)?;
@@ -103,14 +108,45 @@ pub fn files(design: &Design, model: &Model) -> Result<Vec<OutputFile>, Document
     Ok(files.0)
 }
 
-/// The files about the statics of a frame.
+/// The files of a finished folder that say something of statics, by another study than that which
+/// the folder has: those about nothing else, and those of the others that `there` finds in it.
 ///
 /// # Errors
 /// [`DocumentError`] when one cannot be drawn or encoded.
-pub fn statics_files(_design: &Design, study: &Study) -> Result<Vec<OutputFile>, DocumentError> {
+pub fn studied_again<'a>(
+    design: &Design,
+    structure: &Structure,
+    study: &Study,
+    there: impl Fn(&str) -> Option<&'a [u8]>,
+) -> Result<Vec<OutputFile>, DocumentError> {
+    let frame = structure.to_frame()?;
     let mut files = Files::default();
-    files.add("statics.json", statics_json(study)?);
+    add_statics(design, &frame, study, &mut files)?;
+    if there("rods.csv").is_some() {
+        files.add("rods.csv", tables::rods(&frame, &classes(&frame), Some(study))?);
+    }
+    if there("model.glb").is_some() {
+        files.add("model.glb", glb(structure, Some(study))?);
+    }
+    if let Some(page) = there("viewer.html").and_then(|bytes| str::from_utf8(bytes).ok()) {
+        let page = with_stress(page, Some(study), &plain_settings(design))?;
+        files.0.extend(page.map(|page| ("viewer.html".to_owned(), page.into_bytes())));
+    }
     Ok(files.0)
+}
+
+/// The files about nothing but the statics of a frame.
+fn add_statics(
+    design: &Design,
+    frame: &Frame,
+    study: &Study,
+    files: &mut Files,
+) -> Result<(), DocumentError> {
+    files.add("statics.json", statics_json(study)?);
+    files.add("model.inp", calculix(study));
+    files.add("model.mac", ansys(study));
+    let sheets = statics_sheets(frame, study, &plain_settings(design))?;
+    add_pages("statics", sheets, (design, Document::Statics), files)
 }
 
 #[derive(Default)]
@@ -229,16 +265,22 @@ fn add_jigs(jigs: &Jigs, laser: LaserProfile, files: &mut Files) -> Result<(), D
     Ok(())
 }
 
-fn sheet_settings(design: &Design, model: &Model) -> Result<SheetSettings, TextError> {
-    let mut settings = SheetSettings {
+/// How papers are printed, without what is known of the model only.
+fn plain_settings(design: &Design) -> SheetSettings {
+    SheetSettings {
         model: design.name(),
         paper: design.paper,
         units: design.units,
         density: design.density,
-        sawn: model.as_built.iter().flat_map(|what| what.sawn.iter().copied()).collect(),
+        sawn: BTreeSet::new(),
         notes: Vec::new(),
         texts: design.texts.clone(),
-    };
+    }
+}
+
+fn sheet_settings(design: &Design, model: &Model) -> Result<SheetSettings, TextError> {
+    let mut settings = plain_settings(design);
+    settings.sawn = model.as_built.iter().flat_map(|what| what.sawn.iter().copied()).collect();
     let run = notes::Run {
         pattern: &design.tiles.name(),
         summary: design.tiles.summary(),

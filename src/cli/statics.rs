@@ -51,7 +51,8 @@ pub fn run(args: Args, terminal: &Terminal) -> Result<(), Failure> {
     let wish = given.resolve(None).map_err(Failure::input)?;
     let question = wish.about(&frame).map_err(Failure::input)?;
     let study = study(&frame, question).map_err(|e| Failure::input(does_not_stand(&e)))?;
-    for (name, bytes) in documents::statics_files(&design, &study).map_err(Failure::input)? {
+    let files = documents::studied_again(&design, &structure, &study, |name| folder.file(name));
+    for (name, bytes) in files.map_err(Failure::input)? {
         folder.replace(name, bytes).map_err(folder_failure)?;
     }
     let json = folder.file("statics.json").map(<[u8]>::to_vec);
