@@ -161,7 +161,9 @@ fn add_arms(text: &mut String, model: &Model, parts: &Parts) {
 fn add_springs(text: &mut String, model: &Model, parts: &Parts) {
     let arms = ELEMENTS * model.beams.len();
     let before = arms + parts.arms.len();
-    let mut alike: BTreeMap<(bool, usize, u64), Vec<(usize, &Spring)>> = BTreeMap::new();
+    // By whether they are grounded, their freedom and the bits of their stiffness.
+    type Kind = (bool, usize, u64);
+    let mut alike: BTreeMap<Kind, Vec<(usize, &Spring)>> = BTreeMap::new();
     for (i, s) in parts.springs.iter().enumerate() {
         let key = (s.other.is_some(), s.freedom, s.stiffness.to_bits());
         alike.entry(key).or_default().push((before + i + 1, s));
