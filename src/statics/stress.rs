@@ -3,8 +3,9 @@
 //! σ = |N|/A + M/W with M the resultant of both bending moments; τ = T/2W + 4V/3A, the
 //! torsion at the skin and the largest shear of a solid circle (at its middle) taken
 //! together though they lie apart; von Mises √(σ² + 3τ²), so that it is never too small.
-//! Under an even load N, V change evenly along the beam and M as a square: places where
-//! a bending moment peaks are looked at besides both ends and an even division between.
+//! Under an even load N, V change evenly along the beam and M as a square: the stress may peak
+//! within it. An even division and the places where a bending moment peaks tell where, and a
+//! golden-section search between the neighbours of the highest finds it.
 
 use super::beam::{self, Twelve};
 use super::load::Load;
@@ -14,8 +15,13 @@ use crate::ids::RodId;
 use crate::surface::Vector3;
 
 /// Even places in a beam that are looked at, besides the peaks of its two bending moments.
-/// With fewer, a peak of the resultant between those of its parts is found less well.
 const PLACES: usize = 8;
+/// Steps of the search for a peak: each leaves 0.618 of the range, all together 1e-9 of it.
+const STEPS: usize = 43;
+/// A stress larger by this part is larger by more than rounding.
+const ROUNDING: f64 = 1e-12;
+/// A step inward from an end, as part of the length.
+const NEAR: f64 = 1e-6;
 
 /// The largest stress of a beam.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -67,14 +73,26 @@ pub fn peak(beam: &Beam, length: f64, ends: &Twelve, q: &Vector3) -> Peak {
     // Where a shear force passes zero its moment peaks.
     let turn = [1, 2].into_iter().filter(|&i| q[i] != 0.0).map(|i| -ends[i] / q[i]);
     let places = even.chain(turn.filter(|s| (0.0..=length).contains(s)));
-    let mut most = Peak { stress: -1.0, at: 0.0 };
-    for at in places {
-        let stress = stress_at(beam, ends, q, at);
-        if stress > most.stress {
-            most = Peak { stress, at };
-        }
+    let of = |at: f64| Peak { stress: stress_at(beam, ends, q, at), at };
+    let higher = |a: Peak, b: Peak| if b.stress > a.stress { b } else { a };
+    let most = places.map(of).fold(Peak { stress: -1.0, at: 0.0 }, higher);
+    // Without a load between its ends no place is stressed more than they are; nor where it is
+    // less from the end inward.
+    let inward = (most.at + NEAR * length).min((1.0 - NEAR) * length);
+    let falls = (most.at == 0.0 || most.at == length) && of(inward).stress < most.stress;
+    if *q == Vector3::zeros() || falls {
+        return most;
     }
-    most
+    let step = length / PLACES as f64;
+    let [mut low, mut high] = [(most.at - step).max(0.0), (most.at + step).min(length)];
+    let part = 2.0 / (1.0 + 5.0_f64.sqrt());
+    for _ in 0..STEPS {
+        let [a, b] = [high - part * (high - low), low + part * (high - low)].map(of);
+        if a.stress >= b.stress { high = b.at } else { low = a.at }
+    }
+    // A place that is known exactly is not given up for rounding.
+    let found = of((low + high) / 2.0);
+    if found.stress > most.stress * (1.0 + ROUNDING) { found } else { most }
 }
 
 /// The largest stress of each rod, in their order.

@@ -1,5 +1,6 @@
 //! Closed forms.
 
+use super::beam::Twelve;
 use super::framework::{Assumptions, Feet, Framework};
 use super::joint::{Hold, pull, springs};
 use super::load::Load;
@@ -7,7 +8,7 @@ use super::material::Material;
 use super::model::{Beam, Foot, Joint, Model};
 use super::section::Section;
 use super::solve::{Response, Solver, StaticsError};
-use super::stress::rod_peaks;
+use super::stress::{peak, rod_peaks, stress_at};
 use crate::frame::fixture::circuit;
 use crate::ids::{ContactId, Id, RodId};
 use crate::surface::{Point3, Vector3};
@@ -196,6 +197,26 @@ fn stress_peaks_where_the_moment_does() {
     load.nodes[0][4] = moment;
     let peaks = rod_peaks(&model, &load, &solve(&model, &load));
     close(peaks[0].at, 100.0 - moment / 200.0 / q);
+}
+
+/// A beam under a load that is skew to both of its axes, turned at its ends about both: no other
+/// of very many places is stressed more than the peak.
+#[test]
+fn stress_peaks_between_the_peaks_of_both_moments() {
+    let beam = rod(Vector3::x() * 200.0, 1).beams[0];
+    let q = Vector3::new(0.0, 2e-3, 5e-3);
+    for first in [-90.0, -40.0, 10.0, 60.0] {
+        // Balanced: what the ends give up to the load, and the moments that they turn with.
+        let ends = Twelve::from_row_slice(&[
+            0.1, -0.25, -0.4, 3.0, 5.0, first, -0.1, -0.15, -0.6, -3.0, 15.0, 0.0,
+        ]);
+        let found = peak(&beam, 200.0, &ends, &q);
+        let most = (0..=100_000)
+            .map(|i| stress_at(&beam, &ends, &q, 200.0 * f64::from(i) / 1e5))
+            .fold(0.0, f64::max);
+        assert!(found.stress >= most * (1.0 - 1e-12), "{first}: {} {most}", found.stress);
+        close(stress_at(&beam, &ends, &q, found.at), found.stress);
+    }
 }
 
 #[test]
