@@ -2,7 +2,7 @@
 //! on its rim: `cargo bench --bench statics [-- MOST_RODS]`.
 //!
 //! `solve` is from the frame to displacements under its weight and a load: cutting the rods,
-//! assembling, factoring, looking for free modes, two cases. `growth` is the exponent of that
+//! assembling, factoring, looking for free modes, solving, the stresses of all rods. `growth` is the exponent of that
 //! time from the row before. `unbalanced` is what loads and reactions lack of equilibrium,
 //! as part of the load. Rods are as thick as suits the units, so the more there are the thinner
 //! and softer they are: the largest domes are too soft for some contacts, and are refused.
@@ -68,7 +68,7 @@ fn row(frame: &Frame, hold: Hold, last: Option<(f64, f64)>) -> (f64, f64) {
         span: None,
         loads: vec![down],
         pressure: 0.0,
-        combinations: vec![case("weight", 0.0), case("load", 1.0)],
+        combinations: vec![case("weight and load", 1.0)],
         add_feet: false,
     };
     let solve = || study(frame, wish.about(frame).expect("there is a rod"));

@@ -18,8 +18,9 @@ use thiserror::Error;
 const SHIFT: f64 = 1e-10;
 /// Steps of inverse iteration at most.
 const STEPS: usize = 20;
-/// A quotient has settled when it falls by less than this factor.
-const SETTLED: f64 = 0.9;
+/// A quotient has settled when it falls by less than this factor: it is the order of magnitude
+/// that counts, and what is free is there at once.
+const SETTLED: f64 = 0.5;
 /// The quotient below which a mode counts as free, or nearly so: of displacements in a softer
 /// structure rounding would leave less than three digits.
 const FREE: f64 = 1e-13;

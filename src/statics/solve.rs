@@ -46,8 +46,8 @@ pub struct Response {
 /// How often a solution is refined at most. The first solution has lost the digits by which
 /// contacts are stiffer than rods, and those that a soft frame costs; each round wins some back.
 const ROUNDS: usize = 12;
-/// A correction smaller than this part of the displacements is rounding.
-const ROUNDING: f64 = 1e-15;
+/// A correction smaller than this part of the displacements is not worth a round.
+const SMALL: f64 = 1e-13;
 /// Corrections that shrink by less than this factor win nothing back any more.
 const SHRINK: f64 = 0.5;
 
@@ -79,10 +79,12 @@ impl<'a> Solver<'a> {
             moved: vec![0.0; given.len()],
             joints: vec![Vector6::zeros(); model.joints.len()],
         };
-        let mut last = f64::INFINITY;
-        for _ in 0..ROUNDS {
+        // The first correction is the solution itself.
+        let mut last = self.refine(&given, &mut found);
+        for _ in 1..ROUNDS {
             let correction = self.refine(&given, &mut found);
-            if correction <= ROUNDING || correction > SHRINK * last {
+            // The next one will be smaller than this one by as much as this one is.
+            if correction.powi(2) <= SMALL * last || correction > SHRINK * last {
                 break;
             }
             last = correction;
