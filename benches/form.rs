@@ -9,14 +9,12 @@
 mod dome;
 mod measure;
 
-use dome::{Dome, dome_edge};
+use dome::{Dome, dome_edge, settings};
 use measure::{forget_peak, growth, least, ms, peak_memory};
 use rodwright::frame::canvas::{Canvas, PlaneCanvas};
-use rodwright::frame::close::{Way, project};
-use rodwright::frame::form::{FormSettings, form, median_rise};
+use rodwright::frame::close::project;
+use rodwright::frame::form::{form, median_rise};
 use rodwright::frame::gaps::Joint;
-use rodwright::frame::layer::Layering;
-use rodwright::frame::share::Share;
 use rodwright::frame::{
     crop::{crop, held},
     lift::lift,
@@ -102,16 +100,7 @@ fn row(rods: f64, paper: Option<f64>, last: Option<(f64, f64)>) -> (f64, f64) {
     let (project_time, _) = least(RUNS, BUDGET, || {
         project(&mut lifted.axes.clone(), &joints).expect("contacts of a dome close")
     });
-    let settings = FormSettings {
-        sizes: Default::default(),
-        diameter,
-        overhang: 2.0 * diameter,
-        round: 1e-3 * canvas.edge(),
-        share: Share::Off,
-        layering: Layering::Auto,
-        way: Way::default(),
-        surface_low: 0.0,
-    };
+    let settings = settings(diameter, canvas.edge(), 0.0);
     let (time, formed) =
         least(RUNS, BUDGET, || form(&canvas, &settings).expect("a dome can be built"));
     let (rods, all) = (formed.frame.rods.len() as f64, ms(time));

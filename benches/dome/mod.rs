@@ -52,16 +52,22 @@ pub fn standing_dome(rods: f64) -> Frame {
     let canvas = PlaneCanvas::new(&dome, pattern, placement, pattern.usual());
     let canvas = canvas.expect("under a million");
     let (_, diameter) = median_rise(&canvas).expect("there are units");
-    let settings = FormSettings {
+    // The height of its rim: 3/5 of the radius.
+    let settings = settings(diameter, canvas.edge(), 0.6 * dome.radius);
+    form(&canvas, &settings).expect("a dome can be built").frame
+}
+
+/// How frames of benches are formed; all lengths in mm.
+#[allow(dead_code, reason = "not every bench forms frames")]
+pub fn settings(diameter: f64, edge: f64, surface_low: f64) -> FormSettings {
+    FormSettings {
         sizes: Default::default(),
         diameter,
         overhang: 2.0 * diameter,
-        round: 1e-3 * canvas.edge(),
+        round: 1e-3 * edge,
         share: Share::Off,
         layering: Layering::Auto,
         way: Way::default(),
-        // The height of its rim: 3/5 of the radius.
-        surface_low: 0.6 * dome.radius,
-    };
-    form(&canvas, &settings).expect("a dome can be built").frame
+        surface_low,
+    }
 }

@@ -25,7 +25,7 @@ const SETTLED: f64 = 0.5;
 /// structure rounding would leave less than three digits.
 const FREE: f64 = 1e-13;
 /// What rounding leaves of the quotient of a free mode.
-const ROUNDING: f64 = 1e-15;
+const ROUNDING: f64 = 1e-14;
 /// A rod is named when it moves by this share of the largest movement.
 const MOVES: f64 = 0.5;
 /// How many rods a message names.

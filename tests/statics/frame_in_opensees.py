@@ -158,6 +158,7 @@ def spring_force(joint, tips):
 
 
 def run():
+    """Solves what stands in OpenSees."""
     ops.constraints("Transformation")
     ops.numberer("RCM")
     ops.system("UmfPack")

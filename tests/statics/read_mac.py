@@ -18,6 +18,8 @@ from pathlib import Path
 import numpy as np
 import openseespy.opensees as ops
 
+from frame_in_opensees import run
+
 SAME = 1e-8
 MOVES = ["UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"]
 FORCES = ["FX", "FY", "FZ", "MX", "MY", "MZ"]
@@ -207,15 +209,7 @@ def solve(deck, forces, pressures):
     for number in turned:
         z, y, x = (pressures.get((number, face), 0.0) for face in (1, 2, 3))
         ops.eleLoad("-ele", number, "-type", "-beamUniform", -y, -z, x)
-    ops.constraints("Transformation")
-    ops.numberer("RCM")
-    ops.system("UmfPack")
-    ops.test("FixedNumIter", 3)
-    ops.algorithm("Newton")
-    ops.integrator("LoadControl", 1.0)
-    ops.analysis("Static")
-    if ops.analyze(1) != 0:
-        raise SystemExit("OpenSees cannot solve the deck")
+    run()
     ops.reactions()
     return used
 
