@@ -243,8 +243,8 @@ fn add_pictures(design: &Design, model: &Model, files: &mut Files) -> Result<(),
     Ok(())
 }
 
-/// The sheets for a laser: all in one file, where that is not too large, and each in its own as well where there
-/// are several.
+/// The sheets for a laser: all in one file, where that is not too large, and each in its own as
+/// well where there are several.
 fn add_jigs(jigs: &Jigs, laser: LaserProfile, files: &mut Files) -> Result<(), DocumentError> {
     let named = |sheets: Vec<Drawing>| {
         let all = jigs::together(&sheets).map(|drawing| ("jigs".to_owned(), drawing));

@@ -27,10 +27,10 @@ pub fn page(study: &Study, folder: &Path, terminal: &Terminal) -> String {
     for (i, case) in study.cases.iter().enumerate() {
         page.head(&format!("Case {}", case.combination.name));
         page.row("load", force(&case.load.total(study.model())));
-        if let Some(most) = study.stresses(i).into_iter().reduce(Largest::larger) {
+        if let Some(most) = Largest::of(study.stresses(i)) {
             page.row("stress", stress(study, most));
         }
-        if let Some(most) = study.moves(i).into_iter().reduce(Largest::larger) {
+        if let Some(most) = Largest::of(study.moves(i)) {
             page.row("moves", moves(study, most));
         }
         page.row("on the ground", ground(study, case));
@@ -42,8 +42,8 @@ pub fn page(study: &Study, folder: &Path, terminal: &Terminal) -> String {
 
 /// What was found, in a line.
 pub fn line(study: &Study) -> String {
-    let worst = study.worst().into_iter().reduce(Largest::larger);
-    let moved = study.displacements().into_iter().reduce(Largest::larger);
+    let worst = Largest::of(study.worst());
+    let moved = Largest::of(study.displacements());
     let parts = [
         worst.map(|worst| stress(study, worst)),
         moved.map(|moved| format!("moves {}", moves(study, moved))),
@@ -112,8 +112,7 @@ const SLANT: f64 = 1e-6;
 
 /// The contacts that pull, the strongest first.
 fn tied(study: &Study) -> String {
-    let mut pulls = study.pulls();
-    pulls.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    let pulls = study.strongest_pulls();
     let names: Vec<String> =
         pulls.iter().take(NAMED).map(|(c, n)| format!("{c} ({} N)", digits(*n))).collect();
     match (pulls.len(), pulls.len().saturating_sub(NAMED)) {

@@ -49,6 +49,11 @@ impl Axis {
         [first, u.cross(&first)]
     }
 
+    /// How far end A and end B lie from those of another axis, mm.
+    pub fn moves_to(&self, other: &Self) -> [f64; 2] {
+        [(other.a - self.a).norm(), (other.b - self.b).norm()]
+    }
+
     /// The point at a distance from end A, mm; beyond the ends too.
     pub fn at(&self, distance: f64) -> Point3 {
         self.a + self.direction() * distance

@@ -134,12 +134,8 @@ impl Start<'_> {
             Ok(done) => done,
             Err(faults) => return Ok(Err(faults)),
         };
-        let moves = self
-            .lifted
-            .iter()
-            .zip(axes.iter())
-            .flat_map(|(old, new)| [(new.a - old.a).norm(), (new.b - old.b).norm()])
-            .collect();
+        let moves =
+            self.lifted.iter().zip(axes.iter()).flat_map(|(old, new)| old.moves_to(new)).collect();
         let made = checked(self.weave, trimmed, &joints, self.how.sizes, self.share);
         Ok(made.map(|(frame, shared)| Closed { frame, shared, closing, moves }))
     }

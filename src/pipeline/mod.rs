@@ -28,7 +28,7 @@ use crate::shop::saw::{CutPlan, Offer, plan_some};
 use crate::shop::{Assembly, JigError, Jigs, assembly, jigs};
 use crate::statics::solve::StaticsError;
 use crate::statics::study::{Study, study};
-use crate::statics::wish::Wish;
+use crate::statics::wish::{LoadError, Wish};
 use crate::surface::prepare::{Prepared, prepare, prepare_polygons};
 use crate::surface::read::{read, read_polygons};
 use crate::surface::topology::require_chartable;
@@ -142,17 +142,20 @@ fn loaded(
     mut model: Model,
     begin: &mut dyn FnMut(Step),
 ) -> Result<Model, BuildError> {
-    let mut wish = wish.clone();
     if let Some(goal) = design.stiffen {
         begin(Step::Stiffen);
-        wish = wish.in_places(&model.formed.frame)?;
-        let (better, stiffened) = stiffened(design, goal, &wish, model)?;
-        model = Model { stiffened, ..better };
+        let wish = wish.in_places(&model.formed.frame)?;
+        return Ok(stiffened(design, goal, &wish, model)?);
     }
     begin(Step::Statics);
-    let frame = &model.formed.frame;
-    model.statics = Some(study(frame, wish.about(frame)?));
+    model.statics = Some(studied(&model, wish)?);
     Ok(model)
+}
+
+/// The stresses of a model, or why it does not stand.
+fn studied(model: &Model, wish: &Wish) -> Result<Result<Study, StaticsError>, LoadError> {
+    let frame = &model.formed.frame;
+    Ok(study(frame, wish.about(frame)?))
 }
 
 /// What a laser cuts for a model. What is wrong with it is an error only where jigs are named:
@@ -407,8 +410,8 @@ fn built(
 
 /// How far each end of each rod moves from one frame to the other, mm.
 fn moves(from: &Frame, to: &Frame) -> Vec<f64> {
-    let of = |(old, new): (&Rod, &Rod)| [new.axis.a - old.axis.a, new.axis.b - old.axis.b];
-    from.rods.iter().zip(to.rods.iter()).flat_map(of).map(|by| by.norm()).collect()
+    let of = |(old, new): (&Rod, &Rod)| old.axis.moves_to(&new.axis);
+    from.rods.iter().zip(to.rods.iter()).flat_map(of).collect()
 }
 
 /// Where units fail whose size and turn could not be fitted to the rods, says which rods

@@ -6,11 +6,10 @@
 //! where nothing is, the steps are halved. Frames in which more units fail, or whose units the
 //! rods do not fit, are passed over.
 
-use super::{Model, SUITING, planned};
+use super::{Model, SUITING, planned, studied};
 use crate::design::{Design, Tiles};
 use crate::pattern::Shape;
 use crate::statics::goal::Goal;
-use crate::statics::study::study;
 use crate::statics::wish::{LoadError, Wish};
 
 /// What the search came to.
@@ -58,7 +57,7 @@ struct Found {
 }
 
 /// Looks for a frame that is stressed less or moves less than `first`, which `design` makes.
-/// Without one, or where `first` does not stand, it is `first` that comes back.
+/// Without one, or where `first` does not stand, it is `first` that comes back. It has its stresses.
 ///
 /// # Errors
 /// [`LoadError`] when a load acts on no rod of `first`.
@@ -66,12 +65,12 @@ pub fn stiffened(
     design: &Design,
     goal: Goal,
     wish: &Wish,
-    first: Model,
-) -> Result<(Model, Option<Stiffened>), LoadError> {
-    let Ok(before) = study(&first.formed.frame, wish.about(&first.formed.frame)?) else {
-        return Ok((first, None));
-    };
-    let value = goal.of(&before);
+    mut first: Model,
+) -> Result<Model, LoadError> {
+    let found = studied(&first, wish)?;
+    let value = found.as_ref().ok().map(|study| goal.of(study));
+    first.statics = Some(found);
+    let Some(value) = value else { return Ok(first) };
     let before = tried(design, &first, value);
     let dropped = first.formed.frame.dropped.len();
     let mut best = Found { design: design.clone(), model: first, tried: before };
@@ -100,7 +99,7 @@ pub fn stiffened(
         step /= 2.0;
     }
     let stiffened = Stiffened { goal, before, after: best.tried, tried: count };
-    Ok((best.model, Some(stiffened)))
+    Ok(Model { stiffened: Some(stiffened), ..best.model })
 }
 
 fn tried(design: &Design, model: &Model, value: f64) -> Tried {
@@ -141,7 +140,7 @@ fn attempt(design: Design, goal: Goal, wish: &Wish, most_dropped: usize) -> Opti
     if formed.frame.dropped.len() > most_dropped || !fits {
         return None;
     }
-    let study = study(&formed.frame, wish.about(&formed.frame).ok()?).ok()?;
+    let study = studied(&model, wish).ok()?.ok()?;
     let tried = tried(&design, &model, goal.of(&study));
-    Some(Found { design, model, tried })
+    Some(Found { design, model: Model { statics: Some(Ok(study)), ..model }, tried })
 }

@@ -2,8 +2,8 @@
 //!
 //! [`sheets`] gives the pages of the workshop document: cover, figures, parts, cut list with
 //! sawing plan, rod cards, the steps of assembly and the table of feet. [`histograms`] shows
-//! some of the figures. [`statics_sheets`] shows where a frame is stressed. [`support_map`] gives the map of the feet at full size, in one piece and
-//! tiled over pages, [`footprint`] the surface laid flat, [`labels`] a label for each rod,
+//! some of the figures. [`statics_sheets`] shows where a frame is stressed. [`support_map`] gives
+//! the map of the feet at full size, in one piece and tiled over pages, [`footprint`] the surface laid flat, [`labels`] a label for each rod,
 //! [`jigs`] the sheets for a laser, [`viewer`] a page for a browser.
 //! [`pattern_picture`], [`pattern_sheet`] and [`contact_sheet`] show what there is to choose
 //! from. Nothing here writes files: pages are rendered by [`drawing::pdf`](crate::drawing::pdf) and [`drawing::svg`](crate::drawing::svg).

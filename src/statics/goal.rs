@@ -20,6 +20,6 @@ impl Goal {
             Self::Utilisation => study.worst(),
             Self::Displacement => study.displacements(),
         };
-        all.into_iter().reduce(Largest::larger).map_or(0.0, |most| most.value)
+        Largest::of(all).map_or(0.0, |most| most.value)
     }
 }

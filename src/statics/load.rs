@@ -37,6 +37,9 @@ impl Load {
     /// length in plan.
     pub fn area(model: &Model, pressure: f64) -> Self {
         let mut load = Self::none(model);
+        if pressure == 0.0 {
+            return load;
+        }
         let carried = tributary(model);
         for ((q, beam), area) in load.beams.iter_mut().zip(&model.beams).zip(carried) {
             q.z = -pressure * area / model.along(beam).norm();

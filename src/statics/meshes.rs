@@ -5,6 +5,7 @@
 //! clockwise at its far end, and so runs round the mesh on its left. What the frame has round
 //! it, and open holes in it, are run round the other way, and count as no mesh.
 
+use super::beam::axes;
 use super::model::Model;
 use crate::surface::{Point3, Vector3};
 
@@ -128,6 +129,6 @@ fn joined(model: &Model) -> Vec<usize> {
 /// any two where there is no normal.
 fn sides(normal: &Vector3) -> [Vector3; 2] {
     let up = normal.try_normalize(f64::MIN_POSITIVE).unwrap_or(Vector3::z());
-    let x = Vector3::ith(up.iamin(), 1.0).cross(&up).normalize();
-    [x, up.cross(&x)]
+    let axes = axes(&up);
+    [1, 2].map(|i| axes.row(i).transpose())
 }

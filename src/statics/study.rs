@@ -203,6 +203,13 @@ impl Study {
         all.filter(|(_, pull)| *pull > self.slight()).collect()
     }
 
+    /// The contacts that pull, the strongest first.
+    pub fn strongest_pulls(&self) -> Vec<(ContactId, f64)> {
+        let mut pulls = self.pulls();
+        pulls.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        pulls
+    }
+
     /// Forces below this are rounding: a part of the largest force in a contact.
     fn slight(&self) -> f64 {
         let joints = self.cases.iter().flat_map(|c| &c.response.joints);
@@ -214,6 +221,11 @@ impl Study {
 const SLIGHT: f64 = 1e-9;
 
 impl Largest {
+    /// The largest of some, if there are any.
+    pub fn of(some: Vec<Self>) -> Option<Self> {
+        some.into_iter().reduce(Self::larger)
+    }
+
     /// The larger of two; of two alike the first.
     pub fn larger(self, other: Self) -> Self {
         if other.value > self.value { other } else { self }

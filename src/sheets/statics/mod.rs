@@ -51,11 +51,9 @@ pub fn statics_sheets(
 
 impl<'a> Subject<'a> {
     fn new(frame: &Frame, study: &'a Study, settings: SheetSettings) -> Self {
-        let mut pulls = study.pulls();
-        pulls.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
         let frame = sized(frame, study.question.taken.scale);
         let (figures, along) = (rod_figures(study), along(study));
-        Self { frame, study, figures, along, pulls, settings }
+        Self { frame, study, figures, along, pulls: study.strongest_pulls(), settings }
     }
 
     fn format(&self) -> Format {

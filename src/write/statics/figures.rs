@@ -68,7 +68,7 @@ pub fn statics_figures(found: &Result<Study, StaticsError>) -> StaticsFigures {
         Err(e) => return StaticsFigures::Refused { refused: e.to_string() },
     };
     let largest = |of: Vec<Largest>| {
-        let most = of.into_iter().reduce(Largest::larger)?;
+        let most = Largest::of(of)?;
         let case = study.cases[most.case].combination.name.clone();
         Some(LargestFigure { value: most.value, case, rod: most.rod.to_string(), at: most.at })
     };

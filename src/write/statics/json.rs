@@ -235,7 +235,7 @@ fn largest(study: &Study) -> Result<Document, serde_json::Error> {
         at_mm: l.at,
         value: l.value,
     };
-    let worst = |of: Vec<Largest>| of.into_iter().reduce(Largest::larger).map(entry);
+    let worst = |of: Vec<Largest>| Largest::of(of).map(entry);
     document.value("utilisation", &worst(study.worst()))?;
     document.value("displacement_mm", &worst(study.displacements()))?;
     Ok(document)
