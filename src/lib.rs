@@ -41,6 +41,7 @@ pub mod drawing;
 pub mod frame;
 pub mod ids;
 pub mod linalg;
+pub mod parallel;
 pub mod pattern;
 pub mod pipeline;
 pub mod sheets;

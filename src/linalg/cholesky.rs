@@ -234,8 +234,8 @@ impl<const K: usize> BlockSolver<K> {
     /// When the pair of nodes is not in the pattern.
     pub fn add(&mut self, row: usize, column: usize, block: &SMatrix<f64, K, K>) {
         let (lower, left) = (row.max(column), row.min(column));
-        for within in 0..K {
-            let start = self.nodes.block_start(lower, left, K, within);
+        let starts = self.nodes.block_starts::<K>(lower, left);
+        for (within, start) in starts.into_iter().enumerate() {
             for i in if row == column { within } else { 0 }..K {
                 let entry = if row < column { block[(within, i)] } else { block[(i, within)] };
                 self.values[start + i] += entry;

@@ -1,6 +1,7 @@
 //! Where a symmetric matrix has entries: the lower triangle by columns.
 
 use super::LinalgError;
+use std::array;
 
 /// The lower triangle of a symmetric pattern in compressed columns, each sorted and
 /// beginning with its diagonal. Indices take 32 bits: half the memory of the wide
@@ -110,7 +111,7 @@ impl LowerPattern {
 
     /// The pattern with `k` unknowns in place of each, side by side. Every entry becomes a
     /// block of k × k, those on the diagonal its lower half; see
-    /// [`block_start`](Self::block_start).
+    /// [`block_starts`](Self::block_starts).
     ///
     /// # Errors
     /// [`LinalgError::TooLarge`] when the entries cannot be counted in 32 bits.
@@ -131,15 +132,18 @@ impl LowerPattern {
         Ok(times)
     }
 
-    /// Where column `within` of the block of an entry begins in [`times`](Self::times) `k`:
-    /// the place of the block's first row there. On the diagonal the rows above the
-    /// diagonal are not stored, but counted.
-    pub(super) fn block_start(&self, row: usize, column: usize, k: usize, within: usize) -> usize {
+    /// Where each column of the block of an entry begins in [`times`](Self::times) `K`: the
+    /// place of the block's first row there. On the diagonal the rows above the diagonal are
+    /// not stored, but counted.
+    ///
+    /// # Panics
+    /// When the pair is not in the pattern or stands above the diagonal.
+    pub(super) fn block_starts<const K: usize>(&self, row: usize, column: usize) -> [usize; K] {
         let entries = self.column(column).len();
-        let before = k * k * self.starts[column] as usize - column * k * (k - 1) / 2;
+        let before = K * K * self.starts[column] as usize - column * K * (K - 1) / 2;
+        let first = before + K * self.rank(row, column);
         // Each column within the block lacks one more entry at its top.
-        let top = before + within * k * entries - within * (within + 1) / 2;
-        top + k * self.rank(row, column)
+        array::from_fn(|within| first + within * K * entries - within * (within + 1) / 2)
     }
 }
 
@@ -163,19 +167,21 @@ mod tests {
     #[test]
     fn blocks_are_found_in_the_larger_pattern() {
         let pattern = triangle_fan();
-        for k in [1, 2, 4] {
-            let times = pattern.times(k).unwrap();
-            assert_eq!(times.size(), 4 * k);
-            for column in 0..4 {
-                for &row in pattern.column(column) {
-                    let row = row as usize;
-                    for within in 0..k {
-                        let start = pattern.block_start(row, column, k, within);
-                        let above = if row == column { within } else { 0 };
-                        for i in above..k {
-                            let wanted = times.position(k * row + i, k * column + within);
-                            assert_eq!(start + i, wanted);
-                        }
+        blocks_are_found::<1>(&pattern);
+        blocks_are_found::<2>(&pattern);
+        blocks_are_found::<4>(&pattern);
+    }
+
+    fn blocks_are_found<const K: usize>(pattern: &LowerPattern) {
+        let times = pattern.times(K).unwrap();
+        assert_eq!(times.size(), 4 * K);
+        for column in 0..4 {
+            for &row in pattern.column(column) {
+                let row = row as usize;
+                for (within, start) in pattern.block_starts::<K>(row, column).iter().enumerate() {
+                    let above = if row == column { within } else { 0 };
+                    for i in above..K {
+                        assert_eq!(start + i, times.position(K * row + i, K * column + within));
                     }
                 }
             }

@@ -4,10 +4,8 @@ use super::beam::{self, Stiffness, Twelve};
 use super::joint;
 use super::model::{Foot, Model};
 use crate::linalg::{BlockSolver, LinalgError, LowerPattern};
+use crate::parallel::in_parallel;
 use nalgebra::Matrix6;
-use std::num::NonZero;
-use std::panic::resume_unwind;
-use std::thread;
 
 /// A beam or joint: its two nodes and its stiffness between them.
 pub type Part = ([usize; 2], Stiffness);
@@ -101,23 +99,4 @@ pub fn add_to(values: &mut [f64], nodes: [usize; 2], twelve: &Twelve) {
     for (i, value) in twelve.iter().enumerate() {
         values[6 * nodes[i / 6] + i % 6] += value;
     }
-}
-
-/// Fewer elements than this are not worth a thread.
-const WORTH: usize = 1000;
-
-/// What a function makes of each element, in their order.
-fn in_parallel<T: Sync, R: Send>(of: &[T], make: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    let (share, make) = (of.len().div_ceil(threads).max(WORTH), &make);
-    thread::scope(|scope| {
-        let run = |some: &[T]| some.iter().map(make).collect::<Vec<R>>();
-        let running: Vec<_> = of.chunks(share).map(|some| scope.spawn(move || run(some))).collect();
-        let mut all = Vec::with_capacity(of.len());
-        for thread in running {
-            // A panic in a thread goes on in this one.
-            all.extend(thread.join().unwrap_or_else(|e| resume_unwind(e)));
-        }
-        all
-    })
 }
