@@ -9,6 +9,7 @@ use super::touch::{Place, Touch};
 use crate::frame::axis::Axis;
 use crate::frame::gaps::{Joint, Row};
 use crate::ids::{ContactId, Id, IdVec, RodId};
+use crate::parallel::in_parallel;
 use crate::surface::Vector3;
 use crate::surface::bvh::{Aabb, Bvh};
 use std::collections::BTreeMap;
@@ -82,24 +83,25 @@ impl<'a> Bounds<'a> {
             touching[joint.over].push(joint.under);
             touching[joint.under].push(joint.over);
         }
-        let mut near = Vec::new();
-        for (r, axis) in cut.enumerate() {
-            let start = near.len();
+        let near = |&r: &RodId| {
+            let mut near = Vec::new();
             tree.visit(
                 |b| b.overlaps(&boxes[r.index()]),
                 |i| {
                     let other = RodId::new(i);
                     if r < other
                         && !touching[r].contains(&other)
-                        && axis.distance(&cut[other]) < reach(r) + reach(other)
+                        && cut[r].distance(&cut[other]) < reach(r) + reach(other)
                     {
                         near.push([r, other]);
                     }
                 },
             );
-            near[start..].sort_unstable();
-        }
-        self.near = near;
+            near.sort_unstable();
+            near
+        };
+        let rods: Vec<RodId> = axes.ids().collect();
+        self.near = in_parallel(&rods, near).into_iter().flatten().collect();
     }
 
     /// The contacts' places along their over rod and their under rod, mm from end A.

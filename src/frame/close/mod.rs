@@ -13,6 +13,8 @@ pub mod bounds;
 pub(super) mod equations;
 mod exact;
 pub mod marks;
+mod normal;
+mod outlook;
 mod projector;
 pub mod shape;
 mod steps;

@@ -95,6 +95,13 @@ impl Projector {
         self.solver.factor(&self.values)
     }
 
+    /// Takes away what of some moves changes the equations, so that J dx = 0.
+    pub fn keep_contacts(&mut self, equations: &Equations, moves: &mut Moves) {
+        let mut pull = equations.changes(moves);
+        self.solver.solve(&mut pull);
+        equations.pull(&pull, -1.0, moves);
+    }
+
     /// The least moves, and (J Jᵀ + S)⁻¹ r: the pull of each row.
     pub fn least_moves(&mut self, equations: &Equations) -> (Moves, Vec<f64>) {
         let mut pull = equations.lacking.clone();

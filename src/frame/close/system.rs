@@ -12,18 +12,26 @@ use super::across::{Across, Bases};
 use super::bounds::{Bound, Bounds};
 use super::equations::{Equations, Moves, longest, moved};
 use super::exact::release;
+use super::normal::{Normal, Pull};
+use super::outlook::roams;
 use super::projector::Projector;
+use super::shape::Circuit;
 use super::steps::{LONGEST_MOVE, State, Weighing};
 use super::unit_terms::{Scale, UnitTerms};
 use super::{CloseError, Task, gap_rows};
 use crate::frame::axis::Axis;
 use crate::ids::{ContactId, Id, IdVec, RodId};
 use crate::linalg::{BlockSolver, LinalgError, LowerPattern};
+use crate::parallel::in_parallel_with;
 use nalgebra::Matrix4;
 use std::collections::BTreeSet;
 
 /// The four unknowns of a rod.
 const W: usize = Across::WAYS;
+
+/// Units whose terms are made before they are put into the matrix: enough to keep all cores
+/// busy, and a few MB.
+const AT_ONCE: usize = 8192;
 
 /// The system of a step.
 pub struct System<'a> {
@@ -49,6 +57,13 @@ impl<'a> System<'a> {
     /// A system; the projector in the slot serves for corrections, and is left there.
     pub fn new(weighing: Weighing, projector: &'a mut Option<Projector>) -> Self {
         Self { weighing, solver: None, step: None, projector }
+    }
+
+    /// Whether a step from here would move rods farther than `roam` in the mean, mm, as far as
+    /// can be told before it is solved for.
+    pub fn roams(&mut self, now: &State, task: &Task, roam: f64) -> Result<bool, CloseError> {
+        let scale = self.scale(task);
+        roams(now, task, (&scale, self.weighing.fidelity), roam, self.projector)
     }
 
     fn scale(&self, task: &Task) -> Scale {
@@ -128,13 +143,14 @@ impl<'a> System<'a> {
         lacking.extend(bounds.map(|(before, after)| before + (after - before) * part));
         let mut rhs = vec![0.0; W * axes.len()];
         add_equations(&mut rhs, &step.equations, &step.bases, &lacking, self.weighing.contacts);
-        let [mut terms, mut there] = [UnitTerms::default(), UnitTerms::default()];
-        for circuit in task.circuits {
-            let fault = CloseError::Parallel;
-            terms.fill(&from.axes, &step.bases, task.joints, circuit, &scale).map_err(fault)?;
-            there.fill(axes, &step.bases, task.joints, circuit, &scale).map_err(fault)?;
-            terms.revalue(&there, &scale);
-            take_terms(&mut rhs, &terms);
+        let pull = |[terms, there]: &mut [UnitTerms; 2], circuit: &Circuit| {
+            terms.fill(&from.axes, &step.bases, task.joints, circuit, &scale)?;
+            there.fill(axes, &step.bases, task.joints, circuit, &scale)?;
+            terms.revalue(there, &scale);
+            Ok(Pull::new(terms))
+        };
+        for pull in in_parallel_with(task.circuits, Default::default, pull) {
+            take(&mut rhs, &pull.map_err(CloseError::Parallel)?);
         }
         for ((r, before), way) in rhs.iter_mut().zip(&step.rhs).zip(&step.ways) {
             *r -= (1.0 - part) * before + self.weighing.fidelity * part * way;
@@ -169,11 +185,18 @@ impl<'a> System<'a> {
             }
         }
         let scale = self.scale(task);
-        let mut terms = UnitTerms::default();
-        for circuit in task.circuits {
-            terms.fill(axes, bases, task.joints, circuit, &scale).map_err(CloseError::Parallel)?;
-            take_terms(&mut rhs, &terms);
-            add_unit(solver, &terms);
+        let normal = |terms: &mut UnitTerms, circuit: &Circuit| {
+            terms.fill(axes, bases, task.joints, circuit, &scale)?;
+            Ok(Normal::new(terms))
+        };
+        for some in task.circuits.chunks(AT_ONCE) {
+            for normal in in_parallel_with(some, UnitTerms::default, normal) {
+                let normal = normal.map_err(CloseError::Parallel)?;
+                take(&mut rhs, &normal.pull);
+                for ((rod, other), block) in normal.pairs().zip(&normal.blocks) {
+                    solver.add(rod.index(), other.index(), block);
+                }
+            }
         }
         Ok(rhs)
     }
@@ -201,33 +224,11 @@ fn add_equations(
     }
 }
 
-/// Takes Gᵀ times the terms of a unit away.
-fn take_terms(rhs: &mut [f64], terms: &UnitTerms) {
-    let width = W * terms.rods.len();
-    for (row, value) in terms.rows.chunks_exact(width).zip(&terms.values) {
-        for (rod, part) in terms.rods.iter().zip(row.chunks_exact(W)) {
-            for (to, part) in rhs[W * rod.index()..].iter_mut().zip(part) {
-                *to -= part * value;
-            }
-        }
-    }
-}
-
-/// Adds GᵀG of a unit's terms.
-fn add_unit(solver: &mut BlockSolver<W>, terms: &UnitTerms) {
-    let width = W * terms.rods.len();
-    for (i, rod) in terms.rods.iter().enumerate() {
-        for (j, other) in terms.rods[..=i].iter().enumerate() {
-            let mut block = Matrix4::zeros();
-            for row in terms.rows.chunks_exact(width) {
-                let (p, q) = (&row[W * i..W * i + W], &row[W * j..W * j + W]);
-                for (column, q) in q.iter().enumerate() {
-                    for (line, p) in p.iter().enumerate() {
-                        block[(line, column)] += p * q;
-                    }
-                }
-            }
-            solver.add(rod.index(), other.index(), &block);
+/// Takes the pull of a unit's terms away.
+fn take(rhs: &mut [f64], pull: &Pull) {
+    for (rod, part) in pull.rods.iter().zip(&pull.parts) {
+        for (to, part) in rhs[W * rod.index()..].iter_mut().zip(part) {
+            *to -= part;
         }
     }
 }

@@ -53,7 +53,7 @@ fn limits(axes: &Axes, joints: &Joints, room: f64) -> Limits {
 }
 
 /// The unit of a regular circuit, wanted at a place.
-fn wanted(joints: &Joints, place: [f64; 3]) -> Circuit {
+pub(super) fn wanted(joints: &Joints, place: [f64; 3]) -> Circuit {
     let n = joints.len();
     Circuit {
         contacts: joints.ids().collect(),
