@@ -98,7 +98,7 @@ fn settings_out_of_bounds_are_named() {
         (&["--unit", "7mm"], 1, "an edge of at least 1"),
         (&["--unit", "12mm"], 1, "--unit"),
         (&["--stock", "50mm"], 1, "R0"),
-        (&["--stock", "1000mm x 3"], 1, "10.47 m in all"),
+        (&["--stock", "1000mm x 3"], 1, "10.48 m in all"),
         (&["--stock", "1000mm x 0"], 2, "is no count"),
         (&["--stock", "1000mm @ -1"], 2, "is no price"),
         (&["--stock", "1000mm @ 1,2000mm"], 1, "bars of 2000 mm have no price"),
