@@ -242,3 +242,31 @@ fn shortened(system: &mut System, now: &State, moves: &Moves, task: &Task) -> Op
         (next.measure(&weighing) < now.measure(&weighing)).then_some((next, part))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// After a good step ε falls at once to what so many units want, κ little by little; bad
+    /// steps raise both.
+    #[test]
+    fn damping_of_large_frames_falls_at_once() {
+        let mut weighing = Weighing::FREE.of_units(10_000);
+        weighing.loosen(1.0);
+        assert_eq!([weighing.fidelity, weighing.strain], [5e-6, 1e-3]);
+        weighing.loosen(0.5);
+        assert_eq!([weighing.fidelity, weighing.strain], [5e-6, 1e-3]);
+        weighing.loosen(0.25);
+        assert_eq!([weighing.fidelity, weighing.strain], [5e-5, 1e-2]);
+    }
+
+    #[test]
+    fn damping_of_small_frames_never_rises_after_good_steps() {
+        for units in [0, 1, 10, 100] {
+            let mut weighing = Weighing::FREE.of_units(units);
+            let before = weighing.fidelity;
+            weighing.loosen(1.0);
+            assert!(weighing.fidelity <= before, "{units}");
+        }
+    }
+}
