@@ -99,9 +99,23 @@ pub fn moved(axes: &IdVec<RodId, Axis>, moves: &Moves, part: f64) -> IdVec<RodId
         .collect()
 }
 
+/// How far the two ends move, mm.
+fn lengths(m: &Move) -> [f64; 2] {
+    [m.fixed_rows::<3>(0).norm(), m.fixed_rows::<3>(3).norm()]
+}
+
+/// The mean move of an end, mm.
+pub fn mean(moves: &Moves) -> f64 {
+    let ends = |m: &Move| lengths(m).iter().sum::<f64>() / 2.0;
+    moves.iter().map(ends).sum::<f64>() / moves.len() as f64
+}
+
 /// The longest move of an end, mm.
 pub fn longest(moves: &Moves) -> f64 {
-    let ends = |m: &Move| m.fixed_rows::<3>(0).norm().max(m.fixed_rows::<3>(3).norm());
+    let ends = |m: &Move| {
+        let [a, b] = lengths(m);
+        a.max(b)
+    };
     // Not a number is longer than all.
     moves
         .iter()

@@ -1,12 +1,16 @@
 //! The normal equations of one unit's terms, by the rods of its circuit.
 
-use super::across::Across;
-use super::unit_terms::UnitTerms;
-use crate::ids::RodId;
+use super::across::{Across, Bases};
+use super::shape::Circuit;
+use super::unit_terms::{Scale, UnitTerms};
+use crate::frame::axis::Axis;
+use crate::frame::gaps::Joint;
+use crate::ids::{ContactId, IdVec, RodId};
+use crate::parallel::in_parallel_with;
 use nalgebra::{Matrix4, Vector4};
 
 /// The four unknowns of a rod.
-const W: usize = Across::WAYS;
+pub const W: usize = Across::WAYS;
 
 /// Gᵀ times the terms, with G their gradients: how they pull each rod.
 pub struct Pull {
@@ -60,4 +64,22 @@ impl Normal {
         let rods = &self.pull.rods;
         (0..rods.len()).flat_map(move |i| (0..=i).map(move |j| (rods[i], rods[j])))
     }
+}
+
+/// Those of all circuits, in their order.
+///
+/// # Errors
+/// A contact whose rods are parallel.
+pub fn normals(
+    circuits: &[Circuit],
+    axes: &IdVec<RodId, Axis>,
+    bases: &Bases,
+    joints: &IdVec<ContactId, Joint>,
+    scale: &Scale,
+) -> Result<Vec<Normal>, ContactId> {
+    let normal = |terms: &mut UnitTerms, circuit: &Circuit| {
+        terms.fill(axes, bases, joints, circuit, scale)?;
+        Ok(Normal::new(terms))
+    };
+    in_parallel_with(circuits, UnitTerms::default, normal).into_iter().collect()
 }

@@ -9,15 +9,13 @@
 //! of large frames of thin rods this spares most of the time and of the memory.
 
 use super::across::{Across, Bases};
-use super::equations::{Equations, Move, Moves};
-use super::normal::Normal;
+use super::equations::{Equations, Moves, mean};
+use super::normal::{Normal, normals};
 use super::projector::Projector;
-use super::shape::Circuit;
 use super::steps::State;
-use super::unit_terms::{Scale, UnitTerms};
+use super::unit_terms::Scale;
 use super::{CloseError, Task};
 use crate::ids::{IdVec, RodId};
-use crate::parallel::in_parallel_with;
 use nalgebra::Vector4;
 
 /// Gradients to look ahead by. More cost time where steps are worth it; fewer overlook steps
@@ -102,12 +100,8 @@ struct Shape {
 impl Shape {
     fn new(now: &State, task: &Task, scale: &Scale, fidelity: f64) -> Result<Self, CloseError> {
         let bases: Bases = now.axes.iter().map(Across::new).collect();
-        let normal = |terms: &mut UnitTerms, circuit: &Circuit| {
-            terms.fill(&now.axes, &bases, task.joints, circuit, scale)?;
-            Ok(Normal::new(terms))
-        };
-        let units = in_parallel_with(task.circuits, UnitTerms::default, normal);
-        let units = units.into_iter().collect::<Result<_, _>>().map_err(CloseError::Parallel)?;
+        let units = normals(task.circuits, &now.axes, &bases, task.joints, scale)
+            .map_err(CloseError::Parallel)?;
         Ok(Self { bases, units, fidelity })
     }
 
@@ -138,12 +132,6 @@ impl Shape {
         let rods = self.bases.iter().zip(bend.iter()).zip(moves.iter());
         rods.map(|((basis, way), by)| basis.to_move(way.as_slice()) + by * self.fidelity).collect()
     }
-}
-
-/// The mean length of the moves of rod ends, mm.
-fn mean(moves: &Moves) -> f64 {
-    let ends = |m: &Move| (m.fixed_rows::<3>(0).norm() + m.fixed_rows::<3>(3).norm()) / 2.0;
-    moves.iter().map(ends).sum::<f64>() / moves.len() as f64
 }
 
 fn dot(moves: &Moves, others: &Moves) -> f64 {

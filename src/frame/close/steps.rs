@@ -222,7 +222,7 @@ pub fn settle(
 
 /// The mean distance between the ends of axes and where they were, mm.
 fn mean_move(from: &IdVec<RodId, Axis>, to: &IdVec<RodId, Axis>) -> f64 {
-    let ends = |(p, q): (&Axis, &Axis)| ((p.a - q.a).norm() + (p.b - q.b).norm()) / 2.0;
+    let ends = |(p, q): (&Axis, &Axis)| p.moves_to(q).iter().sum::<f64>() / 2.0;
     from.iter().zip(to.iter()).map(ends).sum::<f64>() / from.len() as f64
 }
 

@@ -12,7 +12,7 @@ use super::across::{Across, Bases};
 use super::bounds::{Bound, Bounds};
 use super::equations::{Equations, Moves, longest, moved};
 use super::exact::release;
-use super::normal::{Normal, Pull};
+use super::normal::{Pull, W, normals};
 use super::outlook::roams;
 use super::projector::Projector;
 use super::shape::Circuit;
@@ -25,9 +25,6 @@ use crate::linalg::{BlockSolver, LinalgError, LowerPattern};
 use crate::parallel::in_parallel_with;
 use nalgebra::Matrix4;
 use std::collections::BTreeSet;
-
-/// The four unknowns of a rod.
-const W: usize = Across::WAYS;
 
 /// Units whose terms are made before they are put into the matrix: enough to keep all cores
 /// busy, and a few MB.
@@ -185,13 +182,9 @@ impl<'a> System<'a> {
             }
         }
         let scale = self.scale(task);
-        let normal = |terms: &mut UnitTerms, circuit: &Circuit| {
-            terms.fill(axes, bases, task.joints, circuit, &scale)?;
-            Ok(Normal::new(terms))
-        };
         for some in task.circuits.chunks(AT_ONCE) {
-            for normal in in_parallel_with(some, UnitTerms::default, normal) {
-                let normal = normal.map_err(CloseError::Parallel)?;
+            let normals = normals(some, axes, bases, task.joints, &scale);
+            for normal in normals.map_err(CloseError::Parallel)? {
                 take(&mut rhs, &normal.pull);
                 for ((rod, other), block) in normal.pairs().zip(&normal.blocks) {
                     solver.add(rod.index(), other.index(), block);
