@@ -43,6 +43,16 @@ pub fn in_parallel_with<T: Sync, S, R: Send>(
     })
 }
 
+/// Does two things at once.
+pub fn both<A: Send, B>(one: impl FnOnce() -> A + Send, other: impl FnOnce() -> B) -> (A, B) {
+    thread::scope(|scope| {
+        let one = scope.spawn(one);
+        let other = other();
+        // A panic in a thread goes on in this one.
+        (one.join().unwrap_or_else(|e| resume_unwind(e)), other)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,10 +4,16 @@
 //! pattern is analysed once; values are filled in and factored as often as needed.
 
 mod cholesky;
+mod cover;
+mod cut;
+pub mod dissection;
+mod halves;
 mod pattern;
+mod solver;
 
-pub use cholesky::{BlockSolver, Cholesky, SpdSolver, block_entries};
+pub use cholesky::Cholesky;
 pub use pattern::LowerPattern;
+pub use solver::{BlockSolver, SpdSolver, block_entries};
 
 use thiserror::Error;
 

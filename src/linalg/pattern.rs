@@ -90,15 +90,12 @@ impl LowerPattern {
 
     /// Whether a pair of unknowns, either way round, is in the pattern.
     pub fn holds(&self, i: usize, j: usize) -> bool {
-        self.column(i.min(j)).binary_search(&(i.max(j) as u32)).is_ok()
+        self.find(i.max(j), i.min(j)).is_some()
     }
 
-    /// Where among the entries of its column a row stands.
-    ///
-    /// # Panics
-    /// When the pair is not in the pattern or stands above the diagonal.
-    pub fn rank(&self, row: usize, column: usize) -> usize {
-        self.column(column).binary_search(&(row as u32)).expect("the pattern holds the pair")
+    /// Where among the entries of its column a row stands, if it does.
+    fn find(&self, row: usize, column: usize) -> Option<usize> {
+        self.column(column).binary_search(&(row as u32)).ok()
     }
 
     /// Where an entry stands among all.
@@ -106,7 +103,17 @@ impl LowerPattern {
     /// # Panics
     /// When the pair is not in the pattern or stands above the diagonal.
     pub fn position(&self, row: usize, column: usize) -> usize {
-        self.starts[column] as usize + self.rank(row, column)
+        self.starts[column] as usize + self.find(row, column).expect("the pattern holds the pair")
+    }
+
+    /// Number of entries of the pattern with `k` unknowns in place of each.
+    ///
+    /// # Errors
+    /// [`LinalgError::TooLarge`] when they cannot be counted in 32 bits.
+    pub(super) fn entries_times(&self, k: usize) -> Result<usize, LinalgError> {
+        let total = k * k * self.entries() - self.size() * k * (k - 1) / 2;
+        u32::try_from(total).map_err(|_| LinalgError::TooLarge { size: k * self.size() })?;
+        Ok(total)
     }
 
     /// The pattern with `k` unknowns in place of each, side by side. Every entry becomes a
@@ -116,11 +123,11 @@ impl LowerPattern {
     /// # Errors
     /// [`LinalgError::TooLarge`] when the entries cannot be counted in 32 bits.
     pub fn times(&self, k: usize) -> Result<Self, LinalgError> {
-        let size = k * self.size();
-        let total = k * k * self.entries() - self.size() * k * (k - 1) / 2;
-        u32::try_from(total).map_err(|_| LinalgError::TooLarge { size })?;
-        let mut times =
-            Self { starts: Vec::with_capacity(size + 1), rows: Vec::with_capacity(total) };
+        let total = self.entries_times(k)?;
+        let mut times = Self {
+            starts: Vec::with_capacity(k * self.size() + 1),
+            rows: Vec::with_capacity(total),
+        };
         times.starts.push(0);
         for column in 0..self.size() {
             for within in 0..k {
@@ -134,16 +141,26 @@ impl LowerPattern {
 
     /// Where each column of the block of an entry begins in [`times`](Self::times) `K`: the
     /// place of the block's first row there. On the diagonal the rows above the diagonal are
-    /// not stored, but counted.
-    ///
-    /// # Panics
-    /// When the pair is not in the pattern or stands above the diagonal.
-    pub(super) fn block_starts<const K: usize>(&self, row: usize, column: usize) -> [usize; K] {
+    /// not stored, but counted. Nothing where the pattern does not have the pair.
+    pub(super) fn find_block<const K: usize>(
+        &self,
+        row: usize,
+        column: usize,
+    ) -> Option<[usize; K]> {
+        let rank = self.find(row, column)?;
         let entries = self.column(column).len();
         let before = K * K * self.starts[column] as usize - column * K * (K - 1) / 2;
-        let first = before + K * self.rank(row, column);
+        let first = before + K * rank;
         // Each column within the block lacks one more entry at its top.
-        array::from_fn(|within| first + within * K * entries - within * (within + 1) / 2)
+        Some(array::from_fn(|within| first + within * K * entries - within * (within + 1) / 2))
+    }
+
+    /// The same of a pair that the pattern has.
+    ///
+    /// # Panics
+    /// When it does not, or the pair stands above the diagonal.
+    pub(super) fn block_starts<const K: usize>(&self, row: usize, column: usize) -> [usize; K] {
+        self.find_block(row, column).expect("the pattern holds the pair")
     }
 }
 

@@ -44,8 +44,14 @@ const BOUND_STEPS: usize = 12;
 /// leave the range in which the linearised gaps say anything; the step is shortened.
 const LONGEST_MOVE: f64 = 0.25;
 
-/// A factorisation serves on while every step leaves less than this part of the error.
+/// A factorisation serves on while every step leaves less than this part of the error, if it
+/// was made where the error was less than [`NEAR`].
 const SERVES: f64 = 0.05;
+
+/// Error of a gap, as part of the diameter, from which rods turn so little that a factorisation
+/// serves for more than one step. Larger, and steps with old ones lead away again; smaller, and
+/// more are made than are needed.
+const NEAR: f64 = 1e-3;
 
 /// How far bounds give way, as part of their own row of J Jᵀ. Bounds that contradict
 /// contacts then bend instead of making the system singular; less, and they throw the rods
@@ -85,7 +91,7 @@ pub fn exact(
     let mut rows = gap_rows(axes, task.joints)?;
     let mut bounds = task.bounds(axes, &rows);
     let good = reachable(axes, &rows);
-    let mut last = f64::INFINITY;
+    let (mut last, mut factored) = (f64::INFINITY, f64::INFINITY);
     let mut still = false;
     for step in 0..=MAX_STEPS {
         let error = worst(&rows);
@@ -115,17 +121,20 @@ pub fn exact(
             bounds = None;
             held.clear();
         }
-        let serves = step > 0 && held.len() == before && error < SERVES * last;
+        // What is left at last is rounding, which new factors do not take away.
+        let serves =
+            held.len() == before && (error <= good || factored < NEAR && error < SERVES * last);
         last = error;
         if let Some(bounds) = &bounds {
             held.retain(|&bound| bounds.hold(bound, axes, &mut equations));
         }
-        let (projector, new) = Projector::for_equations(projector, axes.len(), &equations)?;
+        let (projector, new) = Projector::for_equations(projector, axes, &equations)?;
         if new || !serves {
             let marks = rows.len()..with_marks;
             let give =
                 |row| if marks.contains(&row) { task.marks.give } else { yields(row, rows.len()) };
             projector.factor(&equations, give)?;
+            factored = error;
         }
         let (moves, pull) = projector.least_moves(&equations);
         release(held, &pull[with_marks..]);

@@ -50,7 +50,7 @@ pub fn roams(
     }
     let shape = Shape::new(now, task, scale, fidelity)?;
     let equations = Equations::of_contacts(&now.rows);
-    let (projector, _) = Projector::for_equations(projector, now.axes.len(), &equations)?;
+    let (projector, _) = Projector::for_equations(projector, &now.axes, &equations)?;
     projector.factor(&equations, |_| 0.0)?;
     Ok(descend(&shape, &equations, projector, LOOKS, |moves| mean(moves) > FARTHER * roam))
 }
@@ -175,8 +175,7 @@ mod tests {
         let shape = Shape::new(&now, &task, &scale, weighing.fidelity).unwrap();
         let equations = Equations::of_contacts(&now.rows);
         let mut slot = None;
-        let (projector, _) =
-            Projector::for_equations(&mut slot, now.axes.len(), &equations).unwrap();
+        let (projector, _) = Projector::for_equations(&mut slot, &now.axes, &equations).unwrap();
         projector.factor(&equations, |_| 0.0).unwrap();
         let (mut before, mut moves) = (0.0, Moves::new());
         let is_far = |by: &Moves| {

@@ -2,8 +2,10 @@
 //! J dx = r is dx = Jᵀ (J Jᵀ)⁻¹ r.
 
 use super::equations::{Equations, Move, Moves};
+use crate::frame::axis::Axis;
 use crate::ids::{IdVec, RodId};
 use crate::linalg::{LinalgError, SpdSolver, block_entries};
+use crate::surface::{Point3, Vector3};
 
 /// A part of a row, by its rod.
 #[derive(Clone, Copy)]
@@ -24,12 +26,12 @@ pub struct Projector {
 }
 
 impl Projector {
-    /// Analyses equations in the moves of this many rods.
+    /// Analyses equations in the moves of these axes.
     ///
     /// # Errors
     /// [`LinalgError::TooLarge`] when memory does not suffice.
-    fn new(rods: usize, equations: &Equations) -> Result<Self, LinalgError> {
-        let mut around: IdVec<RodId, Vec<Meeting>> = vec![Vec::with_capacity(4); rods].into();
+    fn new(axes: &IdVec<RodId, Axis>, equations: &Equations) -> Result<Self, LinalgError> {
+        let mut around: IdVec<RodId, Vec<Meeting>> = vec![Vec::with_capacity(4); axes.len()].into();
         let rows = equations.len();
         for row in 0..rows {
             for part in equations.range(row) {
@@ -45,7 +47,8 @@ impl Projector {
         entries.extend((0..rows).map(|row| (row, row)));
         let values = Vec::with_capacity(entries.len());
         let rods = equations.parts().iter().map(|part| part.0).collect();
-        Ok(Self { solver: SpdSolver::new(rows, &entries)?, around, rods, values, rows })
+        let places: Vec<Point3> = (0..rows).map(|row| place(axes, equations, row)).collect();
+        Ok(Self { solver: SpdSolver::placed(&entries, &places)?, around, rods, values, rows })
     }
 
     /// The projector in `slot`, and whether it was made anew because there was none or it was
@@ -55,12 +58,12 @@ impl Projector {
     /// [`LinalgError::TooLarge`] when memory does not suffice.
     pub fn for_equations<'a>(
         slot: &'a mut Option<Self>,
-        rods: usize,
+        axes: &IdVec<RodId, Axis>,
         equations: &Equations,
     ) -> Result<(&'a mut Self, bool), LinalgError> {
         match slot.take().filter(|known| known.suits(equations)) {
             Some(known) => Ok((slot.insert(known), false)),
-            None => Ok((slot.insert(Self::new(rods, equations)?), true)),
+            None => Ok((slot.insert(Self::new(axes, equations)?), true)),
         }
     }
 
@@ -110,4 +113,11 @@ impl Projector {
         equations.pull(&pull, 1.0, &mut moves);
         (moves, pull)
     }
+}
+
+/// Where an equation lies: amid its rods.
+fn place(axes: &IdVec<RodId, Axis>, equations: &Equations, row: usize) -> Point3 {
+    let parts = &equations.parts()[equations.range(row)];
+    let middles = parts.iter().map(|(rod, _)| nalgebra::center(&axes[*rod].a, &axes[*rod].b));
+    Point3::from(middles.map(|p| p.coords).sum::<Vector3>() / parts.len() as f64)
 }

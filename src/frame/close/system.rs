@@ -23,6 +23,7 @@ use crate::frame::axis::Axis;
 use crate::ids::{ContactId, Id, IdVec, RodId};
 use crate::linalg::{BlockSolver, LinalgError, LowerPattern};
 use crate::parallel::in_parallel_with;
+use crate::surface::Point3;
 use nalgebra::Matrix4;
 use std::collections::BTreeSet;
 
@@ -83,7 +84,11 @@ impl<'a> System<'a> {
         let bases: Bases = axes.iter().map(Across::new).collect();
         let mut solver = match self.solver.take() {
             Some(solver) if holds(solver.nodes(), &equations, task.joints.len()) => solver,
-            _ => BlockSolver::new(pattern(axes.len(), task, &equations)?)?,
+            _ => {
+                let places: Vec<Point3> =
+                    axes.iter().map(|axis| nalgebra::center(&axis.a, &axis.b)).collect();
+                BlockSolver::placed(pattern(axes.len(), task, &equations)?, &places)?
+            }
         };
         let rhs = self.fill(&mut solver, axes, &bases, task, &equations)?;
         solver.factor()?;
@@ -115,7 +120,7 @@ impl<'a> System<'a> {
         let by = self.bend(from, &axes, part, task)?;
         let axes = apply(axes, &by);
         let equations = Equations::of_contacts(&gap_rows(&axes, task.joints)?);
-        let (projector, _) = Projector::for_equations(self.projector, axes.len(), &equations)?;
+        let (projector, _) = Projector::for_equations(self.projector, &axes, &equations)?;
         projector.factor(&equations, |_| 0.0)?;
         let by = projector.least_moves(&equations).0;
         Ok(apply(axes, &by))
