@@ -83,8 +83,17 @@ impl Axis {
     /// How this axis passes `other`, with `outward` telling which side is up;
     /// `None` when they are parallel.
     pub fn cross(&self, other: &Self, outward: &Vector3) -> Option<Crossing> {
-        let (u, v) = (self.direction(), other.direction());
-        let normal = u.cross(&v);
+        self.cross_along(other, [&self.direction(), &other.direction()], outward)
+    }
+
+    /// The same, given the directions of both axes.
+    pub fn cross_along(
+        &self,
+        other: &Self,
+        [u, v]: [&Vector3; 2],
+        outward: &Vector3,
+    ) -> Option<Crossing> {
+        let normal = u.cross(v);
         let sine = normal.norm();
         if sine.is_nan() || sine < PARALLEL {
             return None;
@@ -92,8 +101,8 @@ impl Axis {
         let across = normal / if normal.dot(outward) < 0.0 { -sine } else { sine };
         let apart = other.a - self.a;
         Some(Crossing {
-            at_first: apart.cross(&v).dot(&normal) / (sine * sine),
-            at_second: apart.cross(&u).dot(&normal) / (sine * sine),
+            at_first: apart.cross(v).dot(&normal) / (sine * sine),
+            at_second: apart.cross(u).dot(&normal) / (sine * sine),
             across,
             rise: -apart.dot(&across),
         })

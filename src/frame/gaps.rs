@@ -104,13 +104,16 @@ pub fn rows(
     axes: &IdVec<RodId, Axis>,
     joints: &IdVec<ContactId, Joint>,
 ) -> Result<Vec<Row>, ContactId> {
+    let along: IdVec<RodId, Vector3> = axes.iter().map(Axis::direction).collect();
+    let lengths: IdVec<RodId, f64> = axes.iter().map(Axis::length).collect();
     let mut rows = Vec::with_capacity(joints.len());
     for (contact, &Joint { over, under, outward, diameter, kind }) in joints.enumerate() {
         let (rods, [first, second]) = ([over, under], [&axes[over], &axes[under]]);
         match kind {
             ContactKind::Cross => {
-                let x = first.cross(second, &outward).ok_or(contact)?;
-                let at = [x.at_first / first.length(), x.at_second / second.length()];
+                let ways = rods.map(|rod| &along[rod]);
+                let x = first.cross_along(second, ways, &outward).ok_or(contact)?;
+                let at = [x.at_first / lengths[over], x.at_second / lengths[under]];
                 let (gap, across, wanted) = (x.rise, x.across, diameter);
                 rows.push(Row { contact, rods, gap, wanted, diameter, across, at });
             }

@@ -16,6 +16,10 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::traits::ComplexField;
 use faer::{Conj, MatMut, Par, Side, Spec};
 
+/// From so many operations an entry of the factor, as part of what faer takes, columns go
+/// together. With what faer takes, systems of some ten thousand unknowns take twice as long.
+const TOGETHER: SupernodalThreshold = SupernodalThreshold(0.5);
+
 /// Factors A = L Lᴴ with A Hermitian, positive definite and of fixed pattern; `T` is
 /// `f64` or a complex number of two.
 ///
@@ -52,7 +56,7 @@ impl<T: ComplexField> Cholesky<T> {
         }
         let order = PermRef::new_checked(&forward, &inverse, forward.len());
         // The columns of a block are alike, so that they go together even in small systems.
-        let columns = SupernodalThreshold::FORCE_SUPERNODAL;
+        let columns = if k > 1 { SupernodalThreshold::FORCE_SUPERNODAL } else { TOGETHER };
         Self::ordered(pattern.times(k)?, SymmetricOrdering::Custom(order), columns)
     }
 

@@ -27,17 +27,22 @@ const LOPSIDED: f64 = 0.25;
 const SAMPLE: usize = 250;
 
 /// Who shares an entry with whom, and where.
-pub struct Graph<'a> {
+pub struct Graph {
     starts: Vec<u32>,
     neighbours: Vec<u32>,
-    places: &'a [Point3<f64>],
-    /// How far away the farthest neighbour is.
-    reach: Vec<f64>,
+    spots: Vec<Spot>,
 }
 
-impl<'a> Graph<'a> {
+/// Where an unknown is.
+struct Spot {
+    at: Vector3<f64>,
+    /// How far away the farthest neighbour is.
+    reach: f64,
+}
+
+impl Graph {
     /// That of a pattern whose unknowns lie at these places.
-    pub fn new(pattern: &LowerPattern, places: &'a [Point3<f64>]) -> Self {
+    pub fn new(pattern: &LowerPattern, places: &[Point3<f64>]) -> Self {
         let size = pattern.size();
         let below = |i: usize| pattern.column(i)[1..].iter().map(|&j| j as usize);
         let mut ends = vec![0_u32; size];
@@ -56,18 +61,19 @@ impl<'a> Graph<'a> {
         }
         starts.push(total);
         let mut neighbours = vec![0; total as usize];
-        let mut reach = vec![0.0_f64; size];
+        let spot = |place: &Point3<f64>| Spot { at: place.coords, reach: 0.0 };
+        let mut spots: Vec<Spot> = places.iter().map(spot).collect();
         for i in 0..size {
             for j in below(i) {
                 let apart = (places[i] - places[j]).norm();
                 for (one, other) in [(i, j), (j, i)] {
                     neighbours[ends[one] as usize] = other as u32;
                     ends[one] += 1;
-                    reach[one] = reach[one].max(apart);
+                    spots[one].reach = spots[one].reach.max(apart);
                 }
             }
         }
-        Self { starts, neighbours, places, reach }
+        Self { starts, neighbours, spots }
     }
 
     fn neighbours(&self, i: u32) -> &[u32] {
@@ -76,7 +82,7 @@ impl<'a> Graph<'a> {
     }
 
     fn place(&self, i: u32) -> Vector3<f64> {
-        self.places[i as usize].coords
+        self.spots[i as usize].at
     }
 }
 
@@ -104,7 +110,7 @@ impl Plane {
 
     /// Whether neighbours of an unknown may lie on the other side.
     fn is_in_reach(&self, graph: &Graph, i: u32) -> bool {
-        self.height(graph, i).abs() <= graph.reach[i as usize]
+        self.height(graph, i).abs() <= graph.spots[i as usize].reach
     }
 }
 
@@ -120,7 +126,7 @@ enum Side {
 
 /// Cuts unknowns, with room to work in.
 pub struct Cutter<'a> {
-    graph: &'a Graph<'a>,
+    graph: &'a Graph,
     /// All out but for those that are cut just now.
     sides: Vec<Side>,
     /// Numbers within those that are looked at.
@@ -129,8 +135,8 @@ pub struct Cutter<'a> {
 
 impl<'a> Cutter<'a> {
     /// For the unknowns of a graph.
-    pub fn new(graph: &'a Graph<'a>) -> Self {
-        let size = graph.places.len();
+    pub fn new(graph: &'a Graph) -> Self {
+        let size = graph.spots.len();
         Self { graph, sides: vec![Side::Out; size], numbers: vec![0; size] }
     }
 

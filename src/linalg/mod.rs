@@ -6,7 +6,7 @@
 mod cholesky;
 mod cover;
 mod cut;
-pub mod dissection;
+mod dissection;
 mod halves;
 mod pattern;
 mod solver;

@@ -3,7 +3,6 @@
 use super::dissection::dissect;
 use super::halves::Halves;
 use super::{Cholesky, LinalgError, LowerPattern};
-use crate::parallel::in_parallel;
 use nalgebra::{Point3, SMatrix};
 
 /// Systems of fewer unknowns are not worth two threads.
@@ -11,7 +10,7 @@ const WORTH_HALVES: usize = 5000;
 
 /// A matrix, factored whole or in halves.
 enum Factor {
-    Whole(Cholesky<f64>),
+    Whole(Box<Cholesky<f64>>),
     Halves(Box<Halves>),
 }
 
@@ -28,7 +27,7 @@ impl Factor {
         {
             return Ok(Self::Halves(Box::new(halves)));
         }
-        Cholesky::of_blocks(nodes, K).map(Self::Whole)
+        Ok(Self::Whole(Box::new(Cholesky::of_blocks(nodes, K)?)))
     }
 
     fn make(&mut self, values: &[f64]) -> Result<(), LinalgError> {
@@ -90,7 +89,7 @@ impl SpdSolver {
     ) -> Result<Self, LinalgError> {
         let pattern = LowerPattern::new(size, entries.iter().copied())?;
         let position = |&(i, j): &(usize, usize)| pattern.position(i.max(j), i.min(j)) as u32;
-        let positions = in_parallel(entries, position);
+        let positions = entries.iter().map(position).collect();
         let values = vec![0.0; pattern.entries()];
         Ok(Self { factor: Factor::new::<1>(&pattern, places)?, positions, values })
     }

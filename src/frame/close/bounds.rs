@@ -12,7 +12,7 @@ use crate::ids::{ContactId, Id, IdVec, RodId};
 use crate::parallel::in_parallel;
 use crate::surface::Vector3;
 use crate::surface::bvh::{Aabb, Bvh};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What the rods need. Lengths in mm.
 #[derive(Clone, Debug)]
@@ -38,6 +38,17 @@ pub enum Bound {
     Apart([RodId; 2]),
 }
 
+impl Bound {
+    /// The rods that it is about.
+    pub fn rods(&self) -> impl Iterator<Item = RodId> + use<> {
+        let (first, second) = match *self {
+            Self::Room(rod, _) => (rod, None),
+            Self::Apart([rod, other]) => (rod, Some(other)),
+        };
+        std::iter::once(first).chain(second)
+    }
+}
+
 /// Bounds are held with this much to spare, as part of the diameter, so that rounding does
 /// not break them.
 const SPARE: f64 = 1e-6;
@@ -45,16 +56,23 @@ const SPARE: f64 = 1e-6;
 /// What is broken by less, as part of the diameter, is rounding.
 const BROKEN: f64 = 1e-9;
 
-/// Rods this near to each other are watched, in diameters: nearer than a step brings them
-/// without being looked at again.
+/// Rods this near to each other are watched, in diameters.
 const WATCHED: f64 = 4.0;
+
+/// Rods that may have moved farther than this, in diameters, are looked at anew: two of them
+/// can have come nearer by twice as much, and their cut ends by more.
+const STRAYED: f64 = WATCHED / 4.0;
 
 /// The bounds of some axes.
 pub struct Bounds<'a> {
     joints: &'a IdVec<ContactId, Joint>,
     limits: &'a Limits,
+    /// Which rods have contacts with which.
+    touching: IdVec<RodId, Vec<RodId>>,
     /// Pairs that are near each other but in no contact.
     near: Vec<[RodId; 2]>,
+    /// How far ends may have moved since these were looked up, mm.
+    moved: f64,
 }
 
 impl<'a> Bounds<'a> {
@@ -65,24 +83,33 @@ impl<'a> Bounds<'a> {
         rows: &[Row],
         limits: &'a Limits,
     ) -> Self {
-        let mut bounds = Self { joints, limits, near: Vec::new() };
+        let mut touching: IdVec<RodId, Vec<RodId>> = vec![Vec::with_capacity(4); axes.len()].into();
+        for joint in joints {
+            touching[joint.over].push(joint.under);
+            touching[joint.under].push(joint.over);
+        }
+        let mut bounds = Self { joints, limits, touching, near: Vec::new(), moved: 0.0 };
         bounds.watch(axes, rows);
         bounds
     }
 
+    /// Heeds that no end moved farther than this, mm: after long ways, which rods are near each
+    /// other is looked up anew.
+    pub fn follow(&mut self, axes: &IdVec<RodId, Axis>, rows: &[Row], farthest: f64) {
+        self.moved += farthest;
+        if self.moved.is_nan() || self.moved > STRAYED * self.limits.diameter {
+            self.watch(axes, rows);
+        }
+    }
+
     /// Looks up anew which rods are near each other.
-    pub fn watch(&mut self, axes: &IdVec<RodId, Axis>, rows: &[Row]) {
+    fn watch(&mut self, axes: &IdVec<RodId, Axis>, rows: &[Row]) {
         let places = self.places(axes, rows);
         let cut: IdVec<RodId, Axis> = axes.ids().map(|r| self.cut(axes, &places, r)).collect();
         let reach = |r: RodId| (self.limits.thickness[r] + WATCHED * self.limits.diameter) / 2.0;
         let boxes: Vec<Aabb<3>> =
             cut.enumerate().map(|(r, c)| Aabb::around(&[c.a, c.b]).grown(reach(r))).collect();
         let tree = Bvh::new(&boxes);
-        let mut touching: IdVec<RodId, Vec<RodId>> = vec![Vec::new(); axes.len()].into();
-        for joint in self.joints {
-            touching[joint.over].push(joint.under);
-            touching[joint.under].push(joint.over);
-        }
         let near = |&r: &RodId| {
             let mut near = Vec::new();
             tree.visit(
@@ -90,7 +117,7 @@ impl<'a> Bounds<'a> {
                 |i| {
                     let other = RodId::new(i);
                     if r < other
-                        && !touching[r].contains(&other)
+                        && !self.touching[r].contains(&other)
                         && cut[r].distance(&cut[other]) < reach(r) + reach(other)
                     {
                         near.push([r, other]);
@@ -101,6 +128,7 @@ impl<'a> Bounds<'a> {
             near
         };
         let rods: Vec<RodId> = axes.ids().collect();
+        self.moved = 0.0;
         self.near = in_parallel(&rods, near).into_iter().flatten().collect();
     }
 
@@ -172,6 +200,27 @@ impl<'a> Bounds<'a> {
         row.is_some()
     }
 
+    /// Adds a row for every known bound, which moves nothing where it is not held. Bounds that
+    /// have no equation are forgotten.
+    pub fn hold_known(
+        &self,
+        known: &mut BTreeSet<Bound>,
+        held: &mut BTreeSet<Bound>,
+        axes: &IdVec<RodId, Axis>,
+        to: &mut Equations,
+    ) {
+        known.retain(|&bound| {
+            let row = to.len();
+            let has_row = self.hold(bound, axes, to);
+            if !has_row {
+                held.remove(&bound);
+            } else if !held.contains(&bound) {
+                to.silence(row);
+            }
+            has_row
+        });
+    }
+
     /// The distance between two neighbouring contacts of a rod, mm, and its gradient.
     fn room(
         &self,
@@ -220,13 +269,13 @@ impl<'a> Bounds<'a> {
             let [from, to] = [ends[2 * s].at, ends[2 * s + 1].at];
             let at = from + (to - from) * part[s];
             add(&mut parts, &[(rod, pair(n * (1.0 - at), n * at))], 1.0);
-            // At an end of the rod, the end itself slides along.
+            // At an end of the rod, the end itself slides along. Elsewhere the rods that it
+            // slides with have no part, but a place, so that rows always name the same rods.
             let along = n.dot(&(axes[rod].b - axes[rod].a));
-            if part[s] <= 0.0 {
-                add(&mut parts, &ends[2 * s].slide, along);
-            } else if part[s] >= 1.0 {
-                add(&mut parts, &ends[2 * s + 1].slide, along);
-            }
+            let slides =
+                [part[s] <= 0.0, part[s] >= 1.0].map(|at_end| if at_end { along } else { 0.0 });
+            add(&mut parts, &ends[2 * s].slide, slides[0]);
+            add(&mut parts, &ends[2 * s + 1].slide, slides[1]);
         }
         Some((distance, parts))
     }

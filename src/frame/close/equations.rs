@@ -48,6 +48,13 @@ impl Equations {
         self.lacking.push(lacking);
     }
 
+    /// Makes a row ask for nothing; it keeps its rods.
+    pub fn silence(&mut self, row: usize) {
+        let range = self.range(row);
+        self.parts[range].iter_mut().for_each(|(_, part)| *part = Move::zeros());
+        self.lacking[row] = 0.0;
+    }
+
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.lacking.len()

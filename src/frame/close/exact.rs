@@ -4,8 +4,8 @@
 //! It converges quadratically; where the last step was a good one, the same factorisation
 //! serves for the next.
 
-use super::bounds::Bound;
-use super::equations::{Equations, longest, moved};
+use super::bounds::{Bound, Bounds};
+use super::equations::{Equations, Moves, longest, moved};
 use super::marks::hold;
 use super::projector::Projector;
 use super::{CloseError, Task, gap_rows, worst};
@@ -89,17 +89,16 @@ pub fn exact(
 ) -> Result<Exact, CloseError> {
     let mean = axes.iter().map(Axis::length).sum::<f64>() / axes.len() as f64;
     let mut rows = gap_rows(axes, task.joints)?;
-    let mut bounds = task.bounds(axes, &rows);
     let good = reachable(axes, &rows);
-    let (mut last, mut factored) = (f64::INFINITY, f64::INFINITY);
+    let mut keeping = Keeping::new(task, task.bounds(axes, &rows), held);
+    let mut last = f64::INFINITY;
     let mut still = false;
     for step in 0..=MAX_STEPS {
         let error = worst(&rows);
         let mut equations = Equations::of_contacts(&rows);
         hold(task, axes, &mut equations)?;
         let slip = equations.lacking[rows.len()..].iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-        let with_marks = equations.len();
-        let broken = match &bounds {
+        let broken = match &keeping.bounds {
             Some(bounds) if step < BOUND_STEPS => bounds.broken(axes, &rows),
             _ => Vec::new(),
         };
@@ -115,38 +114,100 @@ pub fn exact(
         if step == MAX_STEPS || error.is_nan() {
             return Err(CloseError::Diverged { open: open(&rows, good) });
         }
-        let before = held.len();
-        held.extend(broken);
-        if task.is_crowded(held) {
-            bounds = None;
-            held.clear();
-        }
         // What is left at last is rounding, which new factors do not take away.
-        let serves =
-            held.len() == before && (error <= good || factored < NEAR && error < SERVES * last);
+        let at_last = error <= good && settled;
+        let progress = Progress { error, last, at_last };
+        keeping.hold(broken);
+        let moves = keeping.least_moves(axes, equations, rows.len(), &progress, projector)?;
         last = error;
-        if let Some(bounds) = &bounds {
-            held.retain(|&bound| bounds.hold(bound, axes, &mut equations));
-        }
-        let (projector, new) = Projector::for_equations(projector, axes, &equations)?;
-        if new || !serves {
-            let marks = rows.len()..with_marks;
-            let give =
-                |row| if marks.contains(&row) { task.marks.give } else { yields(row, rows.len()) };
-            projector.factor(&equations, give)?;
-            factored = error;
-        }
-        let (moves, pull) = projector.least_moves(&equations);
-        release(held, &pull[with_marks..]);
-        still = longest(&moves) <= STILL * task.edge;
-        let part = (LONGEST_MOVE * mean / longest(&moves)).min(1.0);
+        let longest = longest(&moves);
+        still = longest <= STILL * task.edge;
+        let part = (LONGEST_MOVE * mean / longest).min(1.0);
         *axes = moved(axes, &moves, part);
         rows = gap_rows(axes, task.joints)?;
-        if let (Some(bounds), 0 | 1) = (&mut bounds, step) {
-            bounds.watch(axes, &rows);
+        if let Some(bounds) = &mut keeping.bounds {
+            bounds.follow(axes, &rows, part * longest);
         }
     }
     unreachable!("the last round of the loop returns")
+}
+
+/// How far the steps have come.
+struct Progress {
+    /// The largest error of a gap, as part of the diameter, and that before the last step.
+    error: f64,
+    last: f64,
+    /// Whether nothing but rounding is left.
+    at_last: bool,
+}
+
+/// The bounds that are kept from step to step, and what was factored for them.
+struct Keeping<'a> {
+    task: &'a Task<'a>,
+    /// Nothing where there are none, or too many are broken.
+    bounds: Option<Bounds<'a>>,
+    held: &'a mut BTreeSet<Bound>,
+    /// All that ever were held: they keep a row, so that one analysis serves for all steps.
+    known: BTreeSet<Bound>,
+    /// Those that were held when factors were made, and the error then.
+    factored: (BTreeSet<Bound>, f64),
+}
+
+impl<'a> Keeping<'a> {
+    fn new(task: &'a Task, bounds: Option<Bounds<'a>>, held: &'a mut BTreeSet<Bound>) -> Self {
+        let factored = (held.clone(), f64::INFINITY);
+        Self { task, bounds, known: held.clone(), held, factored }
+    }
+
+    /// Holds those that are broken as well.
+    fn hold(&mut self, broken: Vec<Bound>) {
+        self.held.extend(broken);
+        if self.task.is_crowded(self.held) {
+            self.bounds = None;
+            self.held.clear();
+            self.known.clear();
+        }
+        self.known.extend(self.held.iter());
+    }
+
+    /// The least moves that meet equations, of which those of so many gaps come first, and the
+    /// bounds that are held. Bounds that would pull rods towards them are let go.
+    fn least_moves(
+        &mut self,
+        axes: &IdVec<RodId, Axis>,
+        mut equations: Equations,
+        gaps: usize,
+        progress: &Progress,
+        projector: &mut Option<Projector>,
+    ) -> Result<Moves, CloseError> {
+        let with_marks = equations.len();
+        if let Some(bounds) = &self.bounds {
+            bounds.hold_known(&mut self.known, self.held, axes, &mut equations);
+        }
+        let (projector, new) = Projector::for_equations(projector, axes, &equations)?;
+        if new || !self.serves(progress) {
+            let give = |row| match row {
+                row if (gaps..with_marks).contains(&row) => self.task.marks.give,
+                row => yields(row, gaps),
+            };
+            projector.factor(&equations, give)?;
+            self.factored = (self.held.clone(), progress.error);
+        }
+        let (moves, pull) = projector.least_moves(&equations);
+        if !progress.at_last {
+            let pull = self.known.iter().zip(&pull[with_marks..]);
+            for (bound, _) in pull.filter(|&(_, &pull)| pull < 0.0) {
+                self.held.remove(bound);
+            }
+        }
+        Ok(moves)
+    }
+
+    /// Whether the factors made last do for one more step.
+    fn serves(&self, Progress { error, last, at_last }: &Progress) -> bool {
+        let (held, error_then) = &self.factored;
+        self.held == held && (*at_last || *error_then < NEAR && *error < SERVES * last)
+    }
 }
 
 /// The error that does where steps come to rounding: more than [`GOOD`] for thin rods far from

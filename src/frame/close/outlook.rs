@@ -12,7 +12,7 @@ use super::across::{Across, Bases};
 use super::equations::{Equations, Moves, mean};
 use super::normal::{Normal, normals};
 use super::projector::Projector;
-use super::steps::State;
+use super::steps::{MANY, State};
 use super::unit_terms::Scale;
 use super::{CloseError, Task};
 use crate::ids::{IdVec, RodId};
@@ -21,9 +21,6 @@ use nalgebra::Vector4;
 /// Gradients to look ahead by. More cost time where steps are worth it; fewer overlook steps
 /// that are not.
 const LOOKS: usize = 4;
-
-/// Fewer rods than this are sooner moved than looked at.
-const MANY: usize = 2000;
 
 /// How many times farther than allowed rods have to go: lengths are compared as means, while
 /// it is the root of the mean of squares that grows.
@@ -45,6 +42,7 @@ pub fn roams(
     roam: f64,
     projector: &mut Option<Projector>,
 ) -> Result<bool, CloseError> {
+    // Fewer rods are sooner moved than looked at.
     if now.axes.len() < MANY {
         return Ok(false);
     }

@@ -13,11 +13,12 @@
 //!
 //! A term that is larger than it was at the start weighs more, and steps end when none is and
 //! rods that came too near each other have had a step to make room, or rods would have to move
-//! too far for more.
+//! too far for more. In large frames they make [room](super::room) by themselves.
 
 use super::bounds::Bound;
 use super::equations::{Moves, moved};
 use super::projector::Projector;
+use super::room::with_room;
 use super::shape::{Energy, Weights};
 use super::system::System;
 use super::{CloseError, Task, gap_rows};
@@ -103,6 +104,9 @@ impl Weighing {
 /// overshoot. Tried on 250, 3,300 and 32,000 units, which take one, three and five steps.
 const LEAST_FIDELITY: f64 = 5.0;
 
+/// Frames of so many rods are large: what is done for few of them need not be done for all.
+pub const MANY: usize = 2000;
+
 /// A step that is shortened less than this was good.
 const WHOLE: f64 = 0.9;
 
@@ -164,9 +168,14 @@ impl State {
         Ok(Self { axes, rows, open, energy })
     }
 
+    /// E.
+    pub fn distortion(&self, weights: &Weights) -> f64 {
+        self.energy.total(weights)
+    }
+
     /// C F1² + E: what steps have to lower.
     fn measure(&self, weighing: &Weighing) -> f64 {
-        weighing.contacts * self.open + self.energy.total(&weighing.shape)
+        weighing.contacts * self.open + self.distortion(&weighing.shape)
     }
 }
 
@@ -186,14 +195,23 @@ pub fn settle(
     {
         return Ok(0);
     }
-    let bounds = task.bounds(&now.axes, &now.rows);
+    // Of many rods, those that came too near each other make room when all are in shape.
+    let many = weighing.corrected && now.axes.len() >= MANY;
+    let bounds = if many { None } else { task.bounds(&now.axes, &now.rows) };
     let wanted = now.energy;
     let in_shape = |now: &State| weighing.corrected && now.energy.is_within(&wanted);
-    let (mut taken, mut last) = (0, false);
+    let (mut taken, mut last, mut roomy) = (0, false, !many);
     while taken < weighing.steps && !last {
         let before = held.len();
         if let Some(bounds) = &bounds {
             held.extend(bounds.broken(&now.axes, &now.rows));
+        }
+        if many && taken > 0 && in_shape(&now) {
+            now = with_room(now, task, &system.weighing, held)?;
+            roomy = true;
+            if in_shape(&now) {
+                break;
+            }
         }
         // The step after that makes room where rods came too near each other.
         last = taken > 0 && in_shape(&now);
@@ -210,11 +228,14 @@ pub fn settle(
         if task.roam.is_some_and(|roam| mean_move(axes, &next.axes) > roam) {
             break;
         }
-        now = next;
+        (now, roomy) = (next, !many);
         taken += 1;
         if slow {
             break;
         }
+    }
+    if taken > 0 && !roomy {
+        now = with_room(now, task, &system.weighing, held)?;
     }
     *axes = now.axes;
     Ok(taken)

@@ -31,6 +31,10 @@ use std::collections::BTreeSet;
 /// busy, and a few MB.
 const AT_ONCE: usize = 8192;
 
+/// Weight of the moves of rods that stay where they are: far more than of contacts, but not so
+/// much that digits get lost.
+const FIRM: f64 = 1e9;
+
 /// The system of a step.
 pub struct System<'a> {
     /// How its terms are weighed.
@@ -38,6 +42,8 @@ pub struct System<'a> {
     solver: Option<BlockSolver<W>>,
     step: Option<Step>,
     projector: &'a mut Option<Projector>,
+    /// Rods from this number on stay where they are.
+    pub free: usize,
 }
 
 /// What the last step came from.
@@ -54,7 +60,7 @@ struct Step {
 impl<'a> System<'a> {
     /// A system; the projector in the slot serves for corrections, and is left there.
     pub fn new(weighing: Weighing, projector: &'a mut Option<Projector>) -> Self {
-        Self { weighing, solver: None, step: None, projector }
+        Self { weighing, solver: None, step: None, projector, free: usize::MAX }
     }
 
     /// Whether a step from here would move rods farther than `roam` in the mean, mm, as far as
@@ -147,7 +153,7 @@ impl<'a> System<'a> {
         add_equations(&mut rhs, &step.equations, &step.bases, &lacking, self.weighing.contacts);
         let pull = |[terms, there]: &mut [UnitTerms; 2], circuit: &Circuit| {
             terms.fill(&from.axes, &step.bases, task.joints, circuit, &scale)?;
-            there.fill(axes, &step.bases, task.joints, circuit, &scale)?;
+            there.fill_values(axes, task.joints, circuit, &scale)?;
             terms.revalue(there, &scale);
             Ok(Pull::new(terms))
         };
@@ -172,8 +178,10 @@ impl<'a> System<'a> {
     ) -> Result<Vec<f64>, CloseError> {
         solver.clear();
         let mut rhs = vec![0.0; W * axes.len()];
-        let own = Matrix4::identity() * self.weighing.fidelity;
-        (0..axes.len()).for_each(|rod| solver.add(rod, rod, &own));
+        for rod in 0..axes.len() {
+            let own = if rod < self.free { self.weighing.fidelity } else { FIRM };
+            solver.add(rod, rod, &Matrix4::from_diagonal_element(own));
+        }
         let weight = self.weighing.contacts;
         add_equations(&mut rhs, equations, bases, &equations.lacking, weight);
         for row in 0..equations.len() {

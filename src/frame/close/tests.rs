@@ -17,7 +17,7 @@ type Axes = IdVec<RodId, Axis>;
 type Joints = IdVec<ContactId, Joint>;
 
 /// Two circuits side by side; their nearest rods are `apart` mm from each other.
-fn two_circuits(n: usize, apart: f64) -> (Axes, Joints) {
+pub(super) fn two_circuits(n: usize, apart: f64) -> (Axes, Joints) {
     let (mut axes, mut joints) = circuit(n, 3.0);
     let (others, theirs) = circuit(n, 3.0);
     let away = Vector3::new(0.5, 40.0 + apart, 1.0);
@@ -35,7 +35,7 @@ fn two_circuits(n: usize, apart: f64) -> (Axes, Joints) {
 }
 
 /// The contacts of every rod in order, room for them, and overhangs of 6 mm.
-fn limits(axes: &Axes, joints: &Joints, room: f64) -> Limits {
+pub(super) fn limits(axes: &Axes, joints: &Joints, room: f64) -> Limits {
     let mut along: IdVec<RodId, Vec<(f64, ContactId)>> = vec![Vec::new(); axes.len()].into();
     for (id, j) in joints.enumerate() {
         let x = axes[j.over].cross(&axes[j.under], &j.outward).unwrap();
@@ -50,6 +50,21 @@ fn limits(axes: &Axes, joints: &Joints, room: f64) -> Limits {
         thickness: vec![3.0; axes.len()].into(),
         diameter: 3.0,
     }
+}
+
+/// How near the rods of two circuits of four come to each other as they are cut, mm.
+pub(super) fn nearest(axes: &Axes, joints: &Joints, limits: &Limits) -> f64 {
+    let cut = |r: RodId| {
+        let x = |c: &ContactId| {
+            let j = &joints[*c];
+            let x = axes[j.over].cross(&axes[j.under], &j.outward).unwrap();
+            if j.over == r { x.at_first } else { x.at_second }
+        };
+        let along = &limits.along[r];
+        axes[r].between(x(&along[0]) - 6.0, x(&along[1]) + 6.0)
+    };
+    let pairs = (0..4).flat_map(|i| (4..8).map(move |j| [i, j].map(RodId::new)));
+    pairs.map(|[i, j]| cut(i).distance(&cut(j))).fold(f64::INFINITY, f64::min)
 }
 
 /// The unit of a regular circuit, wanted at a place.
@@ -174,19 +189,7 @@ fn gradients_of_bounds_agree_with_finite_differences() {
 fn rods_that_would_clash_are_kept_apart() {
     let (start, joints) = two_circuits(4, 1.5);
     let limits = limits(&start, &joints, 3.0);
-    let nearest = |axes: &Axes| {
-        let cut = |r: RodId| {
-            let x = |c: &ContactId| {
-                let j = &joints[*c];
-                let x = axes[j.over].cross(&axes[j.under], &j.outward).unwrap();
-                if j.over == r { x.at_first } else { x.at_second }
-            };
-            let along = &limits.along[r];
-            axes[r].between(x(&along[0]) - 6.0, x(&along[1]) + 6.0)
-        };
-        let pairs = (0..4).flat_map(|i| (4..8).map(move |j| [i, j].map(RodId::new)));
-        pairs.map(|[i, j]| cut(i).distance(&cut(j))).fold(f64::INFINITY, f64::min)
-    };
+    let nearest = |axes: &Axes| nearest(axes, &joints, &limits);
     let mut free = start.clone();
     project(&mut free, &joints).unwrap();
     assert!(nearest(&free) < 2.5, "{}", nearest(&free));

@@ -2,7 +2,7 @@
 
 use super::across::{Across, Bases};
 use super::shape::{Circuit, LEAST_SIDE, Weights, cosine, height};
-use super::touch::Touch;
+use super::touch::{Touch, middle};
 use crate::frame::axis::Axis;
 use crate::frame::gaps::Joint;
 use crate::ids::{ContactId, IdVec, RodId};
@@ -29,7 +29,8 @@ pub struct UnitTerms {
     pub rods: Vec<RodId>,
     /// The terms.
     pub values: Vec<f64>,
-    /// The gradient of every term, one after the other, each by the four ways of all rods.
+    /// The gradient of every term, one after the other, each by the four ways of all rods; none
+    /// where only values were wanted.
     pub rows: Vec<f64>,
     corners: Vec<CornerTerm>,
     /// How many of the terms, the last ones, are strains.
@@ -57,20 +58,49 @@ impl UnitTerms {
         circuit: &Circuit,
         scale: &Scale,
     ) -> Result<(), ContactId> {
-        self.rods.clear();
-        self.values.clear();
-        self.rows.clear();
-        self.corners.clear();
+        self.clear();
         for &contact in &circuit.contacts {
             let touch = Touch::new(axes, &joints[contact]).ok_or(contact)?;
             let corner = self.corner(axes, bases, &touch);
             self.corners.push(corner);
         }
+        self.push_terms(circuit, scale);
+        Ok(())
+    }
+
+    /// Fills in the values alone, without gradients.
+    ///
+    /// # Errors
+    /// A contact whose rods are parallel.
+    pub fn fill_values(
+        &mut self,
+        axes: &IdVec<RodId, Axis>,
+        joints: &IdVec<ContactId, Joint>,
+        circuit: &Circuit,
+        scale: &Scale,
+    ) -> Result<(), ContactId> {
+        self.clear();
+        for &contact in &circuit.contacts {
+            let at = middle(axes, &joints[contact]).ok_or(contact)?;
+            let (rods, moves) = ([0; 2], [Matrix3x4::zeros(); 2]);
+            self.corners.push(CornerTerm { at, rods, moves });
+        }
+        self.push_terms(circuit, scale);
+        Ok(())
+    }
+
+    fn clear(&mut self) {
+        self.rods.clear();
+        self.values.clear();
+        self.rows.clear();
+        self.corners.clear();
+    }
+
+    fn push_terms(&mut self, circuit: &Circuit, scale: &Scale) {
         self.push_height(circuit, scale);
         self.push_cosines(circuit, scale);
         self.push_sides(circuit, scale);
         self.push_strains(scale);
-        Ok(())
     }
 
     /// Takes the values of the terms where the rods came to lie, and keeps the gradients. Where
@@ -108,10 +138,13 @@ impl UnitTerms {
 
     /// Adds a term that changes by `by` with these corners.
     fn push(&mut self, value: f64, by: &[(usize, Vector3)]) {
-        let width = Across::WAYS * self.rods.len();
-        let start = self.rows.len();
-        self.rows.resize(start + width, 0.0);
         self.values.push(value);
+        // Without rods only values are wanted.
+        if self.rods.is_empty() {
+            return;
+        }
+        let start = self.rows.len();
+        self.rows.resize(start + Across::WAYS * self.rods.len(), 0.0);
         let row = &mut self.rows[start..];
         for (corner, force) in by {
             let CornerTerm { rods, moves, .. } = &self.corners[*corner];
