@@ -45,14 +45,16 @@ fn touches(triangle: &[Point2<f64>; 3], a: Point2<f64>, b: Point2<f64>, reach: f
 }
 
 /// Whether a point lies in a triangle of either sense, by signs alone: distances of
-/// points inside are nought but for rounding.
+/// points inside are nought but for rounding. A triangle without area has no inside.
 fn inside(triangle: &[Point2<f64>; 3], p: Point2<f64>) -> bool {
     let side = |k: usize| {
         let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
         (b - a).perp(&(p - a))
     };
     let sides = [side(0), side(1), side(2)];
-    sides.iter().all(|&s| s >= 0.0) || sides.iter().all(|&s| s <= 0.0)
+    // On the line of a triangle that is one all are nought, also far from it.
+    let within = sides.iter().all(|&s| s >= 0.0) || sides.iter().all(|&s| s <= 0.0);
+    within && sides.iter().any(|&s| s != 0.0)
 }
 
 fn nearest_of(triangle: &[Point2<f64>; 3], p: &Point2<f64>) -> Point2<f64> {
