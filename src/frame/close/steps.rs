@@ -197,7 +197,13 @@ pub fn settle(
     }
     // Of many rods, those that came too near each other make room when all are in shape.
     let many = weighing.corrected && now.axes.len() >= MANY;
-    let bounds = if many { None } else { task.bounds(&now.axes, &now.rows) };
+    let mut bounds = task.bounds(&now.axes, &now.rows);
+    if many && let Some(bounds) = bounds.take() {
+        let broken = bounds.broken(&now.axes, &now.rows).into_iter().collect();
+        if task.is_crowded(&broken) {
+            return Ok(0);
+        }
+    }
     let wanted = now.energy;
     let in_shape = |now: &State| weighing.corrected && now.energy.is_within(&wanted);
     let (mut taken, mut last, mut roomy) = (0, false, !many);
