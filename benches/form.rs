@@ -44,7 +44,7 @@ const SIZES: [(f64, Option<f64>); 12] = [
 const MOST_RODS: f64 = 1e5;
 
 const RUNS: usize = 7;
-const BUDGET: Duration = Duration::from_secs(3);
+const BUDGET: Duration = Duration::from_secs(15);
 
 fn main() {
     let most = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(MOST_RODS);
