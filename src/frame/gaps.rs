@@ -28,6 +28,16 @@ pub struct Joint {
     pub kind: ContactKind,
 }
 
+/// Which of so many rods have contacts with which.
+pub fn touching(rods: usize, joints: &IdVec<ContactId, Joint>) -> IdVec<RodId, Vec<RodId>> {
+    let mut touching: IdVec<RodId, Vec<RodId>> = vec![Vec::with_capacity(4); rods].into();
+    for joint in joints {
+        touching[joint.over].push(joint.under);
+        touching[joint.under].push(joint.over);
+    }
+    touching
+}
+
 /// A row as one of its rods meets it.
 #[derive(Clone, Copy, Debug)]
 pub struct Incidence {

@@ -7,6 +7,7 @@
 //! *Partitioning sparse matrices with eigenvectors of graphs*, 1990, section 4).
 
 use super::cover::{Pairs, least_cover};
+use super::pattern::started;
 use super::{LinalgError, LowerPattern};
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::f64::consts::PI;
@@ -52,15 +53,8 @@ impl Graph {
                 ends[j] += 1;
             }
         }
-        let mut starts = Vec::with_capacity(size + 1);
-        let mut total = 0;
-        for end in &mut ends {
-            starts.push(total);
-            total += *end;
-            *end = *starts.last().expect("just pushed");
-        }
-        starts.push(total);
-        let mut neighbours = vec![0; total as usize];
+        let starts = started(&mut ends);
+        let mut neighbours = vec![0; starts[size] as usize];
         let spot = |place: &Point3<f64>| Spot { at: place.coords, reach: 0.0 };
         let mut spots: Vec<Spot> = places.iter().map(spot).collect();
         for i in 0..size {

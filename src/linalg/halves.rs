@@ -9,6 +9,7 @@
 
 use super::cholesky::{as_it_stands, supernodes, zeros};
 use super::dissection::Dissection;
+use super::pattern::started;
 use super::{LinalgError, LowerPattern};
 use crate::parallel::both;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -341,14 +342,9 @@ fn placed<const K: usize>(
     };
     let mut ends = vec![0_u32; K * local.size()];
     visit(&mut |_, column, _| ends[column as usize] += 1);
-    let mut starts = Vec::with_capacity(ends.len() + 1);
-    let mut total = 0;
-    for end in &mut ends {
-        starts.push(total);
-        total += std::mem::replace(end, total);
-    }
-    starts.push(total);
-    let (mut rows, mut froms) = (vec![0; total as usize], vec![0; total as usize]);
+    let starts = started(&mut ends);
+    let total = starts[ends.len()] as usize;
+    let (mut rows, mut froms) = (vec![0; total], vec![0; total]);
     visit(&mut |row, column, from| {
         let at = &mut ends[column as usize];
         (rows[*at as usize], froms[*at as usize]) = (row, from);

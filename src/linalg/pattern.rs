@@ -164,6 +164,19 @@ impl LowerPattern {
     }
 }
 
+/// Where each of some lists begins if one stands after the other, and the end of all; what was
+/// the length of a list becomes where it begins, to be filled from there.
+pub(super) fn started(lengths: &mut [u32]) -> Vec<u32> {
+    let mut starts = Vec::with_capacity(lengths.len() + 1);
+    let mut total = 0;
+    for length in lengths {
+        starts.push(total);
+        total += std::mem::replace(length, total);
+    }
+    starts.push(total);
+    starts
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -7,7 +7,7 @@
 use super::equations::{Equations, Move, pair};
 use super::touch::{Place, Touch};
 use crate::frame::axis::Axis;
-use crate::frame::gaps::{Joint, Row};
+use crate::frame::gaps::{Joint, Row, touching};
 use crate::ids::{ContactId, Id, IdVec, RodId};
 use crate::parallel::in_parallel;
 use crate::surface::Vector3;
@@ -83,11 +83,7 @@ impl<'a> Bounds<'a> {
         rows: &[Row],
         limits: &'a Limits,
     ) -> Self {
-        let mut touching: IdVec<RodId, Vec<RodId>> = vec![Vec::with_capacity(4); axes.len()].into();
-        for joint in joints {
-            touching[joint.over].push(joint.under);
-            touching[joint.under].push(joint.over);
-        }
+        let touching = touching(axes.len(), joints);
         let mut bounds = Self { joints, limits, touching, near: Vec::new(), moved: 0.0 };
         bounds.watch(axes, rows);
         bounds

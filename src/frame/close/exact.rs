@@ -196,9 +196,9 @@ impl<'a> Keeping<'a> {
         let (moves, pull) = projector.least_moves(&equations);
         if !progress.at_last {
             let pull = self.known.iter().zip(&pull[with_marks..]);
-            for (bound, _) in pull.filter(|&(_, &pull)| pull < 0.0) {
-                self.held.remove(bound);
-            }
+            let of_held = pull.filter(|(bound, _)| self.held.contains(bound));
+            let of_held: Vec<f64> = of_held.map(|(_, &pull)| pull).collect();
+            release(self.held, &of_held);
         }
         Ok(moves)
     }

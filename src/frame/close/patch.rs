@@ -8,7 +8,7 @@ use super::bounds::{Bound, Limits};
 use super::marks::Marks;
 use super::shape::Circuit;
 use crate::frame::axis::Axis;
-use crate::frame::gaps::Joint;
+use crate::frame::gaps::{Joint, touching};
 use crate::ids::{ContactId, Id, IdVec, RodId};
 use std::collections::BTreeMap;
 
@@ -142,12 +142,7 @@ struct Near {
 
 impl Near {
     fn new(task: &Task, rods: usize) -> Self {
-        let mut others: IdVec<RodId, Vec<RodId>> = vec![Vec::new(); rods].into();
-        for joint in task.joints {
-            others[joint.over].push(joint.under);
-            others[joint.under].push(joint.over);
-        }
-        Self { others }
+        Self { others: touching(rods, task.joints) }
     }
 
     fn mask(&self, some: impl IntoIterator<Item = RodId>) -> Vec<bool> {
